@@ -17,7 +17,8 @@ fn finished(base_samples: u64) -> (Design, Vec<Totals>) {
     let model = study.model();
     let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 0).expect("threads").with_outputs_kept(true);
+    let mut run = GrowingRun::new(job, &context, 0).expect("threads");
+    run.keeps_outputs = true;
     run.grow_to(base_samples, &|_| ()).expect("no failures");
     let totals = run.totals().to_vec();
     (study.design().clone(), totals)

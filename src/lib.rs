@@ -85,8 +85,8 @@ pub use model::{
 };
 pub use quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
 pub use result::{LookupError, OutputResult, StudyResult, Warning};
-pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
-pub use runner::{Resume, Runner, WorkerStudy};
+pub use run::{FailurePolicy, Progress, RemoteWorkers, RunError, Shard, ShardError};
+pub use runner::{Requests, Resume, Runner, WorkerStudy};
 pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
 pub use uncertainty::{DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod};

@@ -93,7 +93,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         model_runs: design.rows(),
         threads: run.threads,
         wall_seconds: run.wall_seconds,
-        study_sha256: study.sha256.clone(),
+        study_sha256: study.source.sha256.clone(),
         first_order_estimator: first_order.source().to_owned(),
         total_estimator: total.source().to_owned(),
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),

@@ -12,7 +12,7 @@ pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
         asked: study_record(study),
         factors: study.space.factors().iter().map(|factor| factor_record(study, factor)).collect(),
-        sha256: study.sha256.clone(),
+        sha256: study.source.sha256.clone(),
     }
 }
 
@@ -25,8 +25,8 @@ pub(super) fn study_record(study: &Study) -> StudyRecord {
         settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         constants: constants.collect(),
         dependences: study.space.dependences().iter().map(dependence_record).collect(),
-        overrides: study.overrides.clone(),
-        source: study.source.clone(),
+        overrides: study.source.overrides.clone(),
+        source: study.source.text.clone(),
     }
 }
 

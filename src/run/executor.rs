@@ -9,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-use super::remote::{Remote, Reply, Talk};
+use super::remote::{DesignKey, Remote, Reply, Request};
 use super::rows::{MissingRows, RowValues};
 use super::tracker::Tracker;
 use super::{Progress, RunError, threads_in_force};
@@ -115,10 +115,10 @@ impl<'a> Executor<'a> {
                 for _ in 0..local_count {
                     scope.spawn(move || execution.work());
                 }
-                for (number, (remote, rows)) in (0..remote_count).zip(std::iter::repeat(remote).flatten()) {
-                    let talk = move || execution.work_remotely(remote.talk(number, self.context), rows);
+                for (worker, (remote, rows)) in (0..remote_count).zip(std::iter::repeat(remote).flatten()) {
                     let thread = std::thread::Builder::new().stack_size(STACK);
-                    if let Err(source) = thread.spawn_scoped(scope, talk) {
+                    let work = move || execution.work_remotely(remote, worker, rows);
+                    if let Err(source) = thread.spawn_scoped(scope, work) {
                         tracker.end(RunError::Threads { threads: workers, source: source.into() });
                     }
                 }
@@ -159,7 +159,7 @@ impl Execution<'_, '_> {
                 break;
             }
             if let Some(give_up) = batch.given_up() {
-                self.tracker.give_up(give_up.clone());
+                self.tracker.end(RunError::GaveUp(give_up.clone()));
                 break;
             }
             max_rows = self.fitting(range.count(), seconds);
@@ -168,29 +168,30 @@ impl Execution<'_, '_> {
     }
 
     /// Does the same for a remote worker: a batch is evaluated while the next one is on its way.
-    fn work_remotely(&self, talk: Talk<'_>, rows: &MissingRows<'_>) {
+    fn work_remotely(&self, remote: Remote<'_>, worker: usize, rows: &MissingRows<'_>) {
         let _guard = self.tracker.end_if_panicking();
-        let worker = talk.worker();
-        if let Err(source) = self.converse(&talk, rows) {
+        if let Err(source) = self.converse(remote, worker, rows) {
             self.tracker.end(RunError::LostWorker { worker, source });
         }
     }
 
-    fn converse(&self, talk: &Talk<'_>, rows: &MissingRows<'_>) -> std::io::Result<()> {
+    fn converse(&self, remote: Remote<'_>, worker: usize, rows: &MissingRows<'_>) -> std::io::Result<()> {
         let mut sent = VecDeque::new();
         let (mut max_rows, mut goes_on) = (1, true);
         loop {
             while goes_on && sent.len() < BATCHES_AHEAD {
                 let Some(range) = self.next(max_rows) else { break };
-                talk.send(rows.design_key(), &range)?;
-                sent.push_back(range);
+                let request = Request { subject: remote.subject, design: DesignKey::new(rows.job.design), range };
+                remote.workers.send(worker, serde_json::to_vec(&request)?)?;
+                sent.push_back(request.range);
             }
             let Some(range) = sent.pop_front() else { return Ok(()) };
-            let Reply { seconds, given_up, pieces } = talk.receive(&range, rows.outputs())?;
+            let Reply { seconds, given_up, pieces } =
+                remote.receive(worker, self.executor.context, &range, rows.store.outputs())?;
             // Receive all outstanding replies, so that the next run begins with a worker that has nothing to send.
             goes_on &= self.count(rows.keep(&pieces));
             if let Some(give_up) = given_up {
-                self.tracker.give_up(give_up);
+                self.tracker.end(RunError::GaveUp(give_up));
                 goes_on = false;
             }
             max_rows = self.fitting(range.count(), seconds);

@@ -96,10 +96,7 @@ impl Failures {
     }
 
     fn count_others(&mut self, tally: Tally) {
-        self.others = Some(self.others.map_or(tally, |mut mine| {
-            mine.add(tally);
-            mine
-        }));
+        self.others.get_or_insert(Tally { count: 0, ..tally }).add(tally);
     }
 
     /// Iterates over the reasons with their counts in alphabetical order; those not counted separately come last.

@@ -12,30 +12,17 @@ use rayon::prelude::*;
 use super::failures::Place;
 use super::scratch::{BlockPlace, Scratch};
 use super::tracker::Tracker;
-use super::{BLOCK, FailurePolicy, Job, OutputSink, Piece, RunError, SAMPLE, Store, Totals};
+use super::{BLOCK, FailurePolicy, GrowingRun, Piece, RunError, SAMPLE, Totals};
 use crate::design::BasePoints;
 use crate::estimate::part_length;
-use crate::model::{RunContext, Worker};
 
 /// Turns the base points of a run into totals.
-pub(super) struct Fold<'f> {
-    pub job: Job<'f>,
-    pub context: &'f RunContext<'f>,
-    pub failures: FailurePolicy,
-    pub keeps_outputs: bool,
-    /// Outputs of all rows, if they already exist.
-    pub store: Option<&'f Store>,
-    /// Receives the outputs of blocks that are evaluated here.
-    pub sink: Option<&'f dyn OutputSink>,
+pub(super) struct Fold<'f, 'a> {
+    /// The run; its store, if there is one, has the outputs of all rows.
+    pub run: &'f GrowingRun<'a>,
     pub tracker: &'f Tracker<'f>,
-    /// Workers and scratch space that no thread is using.
-    pub idle: Mutex<Vec<Bench<'f>>>,
-}
-
-/// What a thread needs for a block.
-pub(super) struct Bench<'f> {
-    worker: Option<Box<dyn Worker + 'f>>,
-    scratch: Scratch,
+    /// What no thread is using.
+    pub idle: Mutex<Vec<Scratch<'a>>>,
 }
 
 /// A replicate, with the range of its base points that are folded.
@@ -45,15 +32,15 @@ struct Stretch {
     points: Range<u64>,
 }
 
-impl<'f> Fold<'f> {
+impl<'a> Fold<'_, 'a> {
     /// Returns the totals of the base points `points` of each replicate, in order; `None` if the run ended before them.
     pub fn run(&self, points: Range<u64>) -> Option<Vec<Totals>> {
         let blocks = points.start / BLOCK..points.end.div_ceil(BLOCK);
         let fold = |replicate| {
-            let base = self.job.design.replicate(replicate);
+            let base = self.run.job.design.replicate(replicate);
             self.fold(&Stretch { replicate, base, points: points.clone() }, blocks.clone())
         };
-        (0..self.job.design.settings().replicates).into_par_iter().map(fold).collect()
+        (0..self.run.job.design.settings().replicates).into_par_iter().map(fold).collect()
     }
 
     fn fold(&self, stretch: &Stretch, blocks: Range<u64>) -> Option<Totals> {
@@ -75,19 +62,15 @@ impl<'f> Fold<'f> {
         }
         let _guard = self.tracker.end_if_panicking();
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut bench = idle.unwrap_or_else(|| Bench { worker: None, scratch: Scratch::new(self.job) });
+        let mut scratch = idle.unwrap_or_else(|| Scratch::new(self.run.job));
         let all = &stretch.points;
         let points = (number * BLOCK).max(all.start)..((number + 1) * BLOCK).min(all.end);
-        let outcome = self.totals(&mut bench, stretch, points);
-        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(bench);
+        let outcome = self.totals(&mut scratch, stretch, points);
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
         match outcome {
             Ok(totals) => {
                 self.tracker.add(totals.runs, totals.failed_runs);
                 Some(totals)
-            }
-            Err(RunError::GaveUp(give_up)) => {
-                self.tracker.give_up(give_up);
-                None
             }
             Err(error) => {
                 self.tracker.end(error);
@@ -96,32 +79,25 @@ impl<'f> Fold<'f> {
         }
     }
 
-    fn totals(
-        &self,
-        Bench { worker, scratch }: &mut Bench<'f>,
-        stretch: &Stretch,
-        points: Range<u64>,
-    ) -> Result<Totals, RunError> {
+    fn totals(&self, scratch: &mut Scratch<'a>, stretch: &Stretch, points: Range<u64>) -> Result<Totals, RunError> {
         let count = (points.end - points.start) as usize;
-        let sampled = (SAMPLE / self.job.design.settings().replicates).max(1);
+        let sampled = (SAMPLE / self.run.job.design.settings().replicates).max(1);
         let place = BlockPlace {
             first: Place { replicate: stretch.replicate, point: points.start, run: 0 },
-            part_length: part_length(points.start / BLOCK, BLOCK, self.job.model.outputs().len()),
+            part_length: part_length(points.start / BLOCK, BLOCK, self.run.job.model.outputs().len()),
             sampled: sampled.saturating_sub(points.start) as usize,
-            keeps_outputs: self.keeps_outputs,
+            keeps_outputs: self.run.keeps_outputs,
         };
-        if !self.store.is_some_and(|store| scratch.recall(store, place, count)) {
-            let worker = worker.get_or_insert_with(|| self.job.model.worker(self.context));
-            let all = (&stretch.base, points.start, count);
-            scratch.run_rows(self.job, all, &mut **worker, self.context).map_err(RunError::GaveUp)?;
-            if let Some(sink) = self.sink.filter(|sink| sink.is_open()) {
-                let first = points.start * self.job.design.rows_per_point();
-                let piece = Piece::from_batches(stretch.replicate, first, scratch.batches());
+        if !self.run.store.is_some_and(|store| scratch.recall(store, place, count)) {
+            scratch.run_rows(self.run.job, (&stretch.base, points.start, count), self.run.context)?;
+            if let Some(sink) = self.run.sink.filter(|sink| sink.is_open()) {
+                let first = points.start * self.run.job.design.rows_per_point();
+                let piece = Piece::from_batches(stretch.replicate, first, &scratch.batches);
                 sink.append(&piece).map_err(|source| RunError::NotKept { source })?;
             }
         }
-        let totals = scratch.totals(self.job, place);
-        match totals.first_failure().filter(|_| self.failures == FailurePolicy::Fail) {
+        let totals = scratch.totals(self.run.job, place);
+        match totals.first_failure().filter(|_| self.run.failures == FailurePolicy::Fail) {
             Some((row, reason)) => Err(RunError::RowFailed { row, reason }),
             None => Ok(totals),
         }

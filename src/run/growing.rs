@@ -17,24 +17,26 @@ use crate::model::RunContext;
 
 /// A run that can be extended: every replicate has the same number of base points, and can grow.
 ///
-/// Blocks of base points of fast models are evaluated and folded at once. The rows of slow models, and those shared by
-/// remote workers, go through a store in batches of any size, and are folded from there.
+/// Blocks of base points are evaluated and folded at once. In a run with a [store](Self::store), as slow models and
+/// remote workers need, rows are evaluated in batches of any size, and are folded from there.
 pub struct GrowingRun<'a> {
-    job: Job<'a>,
-    context: &'a RunContext<'a>,
+    pub(super) job: Job<'a>,
+    pub(super) context: &'a RunContext<'a>,
     executor: Executor<'a>,
     /// Threads for blocks and for estimates from the totals; `None` to use those of the caller.
     pool: Option<ThreadPool>,
     start: Instant,
-    failures: FailurePolicy,
-    keeps_outputs: bool,
-    store: Option<&'a Store>,
-    /// The store of a run that needs one and was given none.
-    own_store: Option<Store>,
-    sink: Option<&'a dyn OutputSink>,
+    /// What happens when a row fails; by default [`FailurePolicy::DropBlock`].
+    pub failures: FailurePolicy,
+    /// Whether the outputs of every run are kept in `OutputTotals::point_outputs`.
+    pub keeps_outputs: bool,
+    /// Keeps outputs: rows that it already has are not evaluated.
+    pub store: Option<&'a Store>,
+    /// Receives every piece of evaluated outputs before its rows count as done.
+    pub sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate evaluated so far.
     points: u64,
-    totals: Vec<Totals>,
+    pub(super) totals: Vec<Totals>,
 }
 
 impl<'a> GrowingRun<'a> {
@@ -56,47 +58,17 @@ impl<'a> GrowingRun<'a> {
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
             store: None,
-            own_store: None,
             sink: None,
             points: 0,
             totals: Vec::new(),
         })
     }
 
-    /// Adds remote workers.
+    /// Adds remote workers, which evaluate rows of a run with a store.
     #[must_use]
     pub(crate) fn with_remote(mut self, remote: Option<Remote<'a>>) -> Self {
         self.executor.remote = remote;
         self
-    }
-
-    /// Keeps outputs in `store`: rows that it already has are not evaluated.
-    #[must_use]
-    pub fn with_store(self, store: &'a Store) -> Self {
-        Self { store: Some(store), ..self }
-    }
-
-    /// Adds `sink`, which receives every piece of evaluated outputs before its rows count as done.
-    #[must_use]
-    pub fn with_sink(self, sink: &'a dyn OutputSink) -> Self {
-        Self { sink: Some(sink), ..self }
-    }
-
-    /// Sets the failure policy; the default is [`FailurePolicy::DropBlock`].
-    #[must_use]
-    pub fn with_failures(self, failures: FailurePolicy) -> Self {
-        Self { failures, ..self }
-    }
-
-    /// Keeps the outputs of every run in `OutputTotals::kept`, if `keeps_outputs`.
-    #[must_use]
-    pub fn with_outputs_kept(self, keeps_outputs: bool) -> Self {
-        Self { keeps_outputs, ..self }
-    }
-
-    /// Returns whether rows go through a store.
-    fn needs_store(&self) -> bool {
-        self.store.is_some() || self.job.model.is_slow() || self.executor.remote.is_some()
     }
 
     /// Checks that the outputs of `points` base points of every replicate fit in memory, if they are to be kept.
@@ -108,7 +80,7 @@ impl<'a> GrowingRun<'a> {
         let runs = points.saturating_mul(design.settings().replicates).saturating_mul(design.rows_per_point());
         let numbers = runs.saturating_mul(self.job.model.outputs().len() as u64);
         let bytes = numbers.saturating_mul(size_of::<f64>() as u64);
-        if (self.keeps_outputs || self.needs_store()) && bytes > MAX_STORED_BYTES {
+        if (self.keeps_outputs || self.store.is_some()) && bytes > MAX_STORED_BYTES {
             return Err(RunError::TooManyOutputs { runs, bytes });
         }
         Ok(())
@@ -143,13 +115,9 @@ impl<'a> GrowingRun<'a> {
             return Ok(());
         }
         self.room_for(points)?;
-        if self.store.is_none() && self.own_store.is_none() && self.needs_store() {
-            self.own_store = Some(Store::new(self.job.model));
-        }
-        let store = self.store.or(self.own_store.as_ref());
         let replicates = design.settings().replicates;
         let silent: &(dyn Fn(Progress) + Sync) = &|_| ();
-        let on_progress = match store {
+        let on_progress = match self.store {
             None => on_progress,
             Some(store) => {
                 let rows = points * design.rows_per_point();
@@ -163,18 +131,8 @@ impl<'a> GrowingRun<'a> {
         let total = points * replicates * design.rows_per_point();
         let before = Progress { done, recalled: 0, total, failed, elapsed: self.start.elapsed() };
         let tracker = Tracker::new(self.context, before, self.start, on_progress);
-        let fold = Fold {
-            job: self.job,
-            context: self.context,
-            failures: self.failures,
-            keeps_outputs: self.keeps_outputs,
-            store,
-            sink: self.sink,
-            tracker: &tracker,
-            idle: Mutex::default(),
-        };
+        let fold = Fold { run: self, tracker: &tracker, idle: Mutex::default() };
         let new = self.install(|| fold.run(self.points..points));
-        drop(fold);
         tracker.finish()?;
         let new = new.unwrap_or_default();
         if self.totals.is_empty() {
@@ -215,10 +173,6 @@ impl<'a> GrowingRun<'a> {
     /// Returns the number of base points of every replicate that have been run.
     pub fn points_per_replicate(&self) -> u64 {
         self.points
-    }
-
-    pub(super) fn into_totals(self) -> Vec<Totals> {
-        self.totals
     }
 
     /// Returns the totals of each replicate, in order; empty before the first base point has been run.

@@ -20,7 +20,6 @@ mod remote;
 mod repeats;
 mod rows;
 mod scratch;
-mod serve;
 mod shard;
 mod store;
 mod table;
@@ -35,12 +34,12 @@ pub use failures::{Failures, MAX_REASONS, Place, Tally};
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
-pub(crate) use remote::{Remote, Request};
+pub(crate) use remote::{DesignKey, Remote, Reply, Request};
+pub(crate) use repeats::repeat_rows;
 pub use repeats::{Irreproducible, Repeats};
-pub(crate) use repeats::{repeat_rows, rows_to_repeat};
 pub use rows::RowValues;
-pub use serve::Requests;
-pub(crate) use serve::{RemoteServer, refusal};
+pub(crate) use rows::answered;
+pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
 pub use table::{Halt, TableRun};
@@ -69,7 +68,7 @@ pub struct Job<'a> {
 }
 
 /// The progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Progress {
     /// Model runs finished.
     pub done: u64,
@@ -99,27 +98,19 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     let context = RunContext::default();
     let mut run = GrowingRun::new(job, &context, threads)?;
     run.grow_to(job.design.points_per_replicate(), on_progress)?;
-    Ok(run.into_totals())
+    Ok(run.totals)
 }
 
 /// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.
 pub trait OutputSink: Sync {
     /// Returns whether it currently accepts outputs.
-    fn is_open(&self) -> bool {
-        true
-    }
+    fn is_open(&self) -> bool;
 
     /// Accepts a piece.
     ///
     /// # Errors
     /// Why the piece cannot be saved, which ends the run.
     fn append(&self, piece: &Piece) -> std::io::Result<()>;
-}
-
-impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
-    fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self(piece)
-    }
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

@@ -1,10 +1,9 @@
 //! Pilot runs, which predict how long a design will take.
 
-use std::collections::BTreeSet;
 use std::time::Instant;
 
 use super::repeats::compare;
-use super::{Job, Repeats, RowValues, RunError, threads_in_force};
+use super::{Job, Repeats, RowValues, RunError, failed_rows, threads_in_force};
 use crate::model::{Batch, RunContext};
 
 /// A few runs of a design, and the predicted time of the whole.
@@ -47,8 +46,7 @@ impl Pilot {
             // Every batch begins with the first row.
             first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
             // The last batch contains all rows, so its failures replace earlier ones.
-            let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
-            failed = rows.len() as u64;
+            failed = failed_rows(&batch);
             reason = batch.failures().first().map(|(.., reason)| reason.to_string());
             batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
         };

@@ -4,7 +4,6 @@
 //! the reply contains the outputs of the rows.
 
 use std::io;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -44,13 +43,28 @@ pub trait RemoteWorkers: Sync {
 pub(crate) struct Remote<'a> {
     pub workers: &'a dyn RemoteWorkers,
     /// Index of the model: 0 is the study's model, its low-fidelity models follow from 1.
-    pub subject: u64,
+    pub subject: usize,
 }
 
-impl<'a> Remote<'a> {
-    /// Opens the exchange with one of the workers, in the run of `context`.
-    pub fn talk(self, worker: usize, context: &'a RunContext<'a>) -> Talk<'a> {
-        Talk { remote: self, worker, context, stop_sent: AtomicBool::new(false) }
+impl Remote<'_> {
+    /// Waits for the reply to the oldest open request to `worker`, which was for `range`. Stops the workers if the run
+    /// of `context` is to stop.
+    pub fn receive(
+        self,
+        worker: usize,
+        context: &RunContext<'_>,
+        range: &RowRange,
+        outputs: usize,
+    ) -> io::Result<Reply> {
+        loop {
+            if let Some(reply) = self.workers.receive(worker, STOP_POLL_INTERVAL)? {
+                let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply does not match the request");
+                return Reply::read(&reply, range, outputs).ok_or_else(nonsense);
+            }
+            if context.is_stopped() {
+                self.workers.stop();
+            }
+        }
     }
 }
 
@@ -77,16 +91,9 @@ impl DesignKey {
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Request {
     /// Index of the model: see [`Remote::subject`].
-    pub subject: u64,
+    pub subject: usize,
     pub design: DesignKey,
     pub range: RowRange,
-}
-
-impl Request {
-    /// Reads a request; returns `None` if the bytes are invalid.
-    pub fn read(bytes: &[u8]) -> Option<Self> {
-        serde_json::from_slice(bytes).ok()
-    }
 }
 
 /// The reply to a request.
@@ -124,39 +131,5 @@ impl Reply {
             pieces.push(piece);
         }
         Some(Self { seconds, given_up, pieces })
-    }
-}
-
-/// The exchange with one worker.
-pub(crate) struct Talk<'a> {
-    remote: Remote<'a>,
-    worker: usize,
-    context: &'a RunContext<'a>,
-    stop_sent: AtomicBool,
-}
-
-impl Talk<'_> {
-    pub fn worker(&self) -> usize {
-        self.worker
-    }
-
-    /// Sends a request for rows.
-    pub fn send(&self, design: DesignKey, range: &RowRange) -> io::Result<()> {
-        let request = Request { subject: self.remote.subject, design, range: range.clone() };
-        self.remote.workers.send(self.worker, serde_json::to_vec(&request)?)
-    }
-
-    /// Waits for the reply to the oldest open request, which was for `range`. Stops the workers if the run is to stop.
-    pub fn receive(&self, range: &RowRange, outputs: usize) -> io::Result<Reply> {
-        let reply = loop {
-            if let Some(reply) = self.remote.workers.receive(self.worker, STOP_POLL_INTERVAL)? {
-                break reply;
-            }
-            if self.context.is_stopped() && !self.stop_sent.swap(true, Ordering::Relaxed) {
-                self.remote.workers.stop();
-            }
-        };
-        let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply does not match the request");
-        Reply::read(&reply, range, outputs).ok_or_else(nonsense)
     }
 }

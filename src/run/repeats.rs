@@ -61,7 +61,7 @@ impl Repeats {
 }
 
 /// Returns the rows that a run of `evaluated` runs of `design` repeats, as (replicate, row): a function of these alone.
-pub(crate) fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)> {
+fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)> {
     if evaluated < MIN_RUNS {
         return Vec::new();
     }
@@ -72,32 +72,34 @@ pub(crate) fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)>
     (0..count).map(place).map(|place| (place / of_replicate, place % of_replicate)).collect()
 }
 
-/// Runs `rows` again on a new worker, and compares their outputs with those in `known`, or with those of another new
-/// worker if some are missing there.
-///
-/// # Errors
-/// [`RunError`] if the model gives up or the run of `context` is to stop.
+/// Runs some rows of a run of `evaluated` rows again on a new worker, if its model may be random, and compares their
+/// outputs with those in `known`, or with those of another new worker if some are missing there. A model that no longer
+/// responds does not cost the result.
 pub(crate) fn repeat_rows(
     job: Job<'_>,
     context: &RunContext<'_>,
-    rows: &[(u64, u64)],
+    evaluated: u64,
     known: Option<&Store>,
-) -> Result<Repeats, RunError> {
+) -> Option<Repeats> {
+    let rows = rows_to_repeat(job.design, evaluated);
+    if !job.model.may_be_random() || rows.is_empty() {
+        return None;
+    }
     let of_store = |store: &Store| -> Option<Vec<Vec<f64>>> {
         rows.iter().map(|(replicate, row)| Some(store.piece(*replicate, *row..*row + 1)?.values)).collect()
     };
     let first = match known.and_then(of_store) {
         Some(outputs) => outputs,
-        None => outputs_of(job, context, rows)?,
+        None => outputs_of(job, context, &rows).ok()?,
     };
-    compare(job, context, rows, &first)
+    compare(job, context, &rows, &first).ok()
 }
 
-/// Does the same with the outputs of the rows as they were `before`.
+/// Runs `rows` again on a new worker, and compares their outputs with those `before`.
 ///
 /// # Errors
-/// As for [`repeat_rows`].
-pub(crate) fn compare(
+/// [`RunError`] if the model gives up or the run of `context` is to stop.
+pub(super) fn compare(
     job: Job<'_>,
     context: &RunContext<'_>,
     rows: &[(u64, u64)],

@@ -3,10 +3,8 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use super::executor::{RowRange, RowSource};
-use super::remote::DesignKey;
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, OutputSink, Place, Progress, RunError};
 use crate::design::{BasePoints, Design};
@@ -15,8 +13,8 @@ use crate::space::Space;
 
 /// The rows of some replicates that are missing in a store.
 pub(crate) struct MissingRows<'a> {
-    job: Job<'a>,
-    store: &'a Store,
+    pub job: Job<'a>,
+    pub store: &'a Store,
     /// Receives every piece before the store does.
     sink: Option<&'a dyn OutputSink>,
     failures: FailurePolicy,
@@ -39,7 +37,7 @@ impl<'a> MissingRows<'a> {
         sink: Option<&'a dyn OutputSink>,
         failures: FailurePolicy,
     ) -> (Self, Progress) {
-        let mut known = Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO };
+        let mut known = Progress::default();
         let mut ranges = VecDeque::new();
         for (replicate, rows) in rows {
             let (present, failed) = store.count(*replicate, rows.clone());
@@ -52,16 +50,6 @@ impl<'a> MissingRows<'a> {
         known.recalled = known.done;
         let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.done });
         (Self { job, store, sink, failures, waiting }, known)
-    }
-
-    /// Returns the fields that distinguish the design from others of the study.
-    pub fn design_key(&self) -> DesignKey {
-        DesignKey::new(self.job.design)
-    }
-
-    /// Returns the number of outputs of every row.
-    pub fn outputs(&self) -> usize {
-        self.store.outputs()
     }
 
     /// Saves pieces in the sink and the store; returns the number of their rows, and how many of them failed.
@@ -112,7 +100,7 @@ impl RowSource for MissingRows<'_> {
 }
 
 /// Returns the evaluated rows of a settled batch as pieces: one, unless the model has given up on some of them.
-pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
+pub(crate) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
     let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
     let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
     let mut open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();

@@ -189,11 +189,6 @@ impl Store {
         counts.fold((0, 0), |(present, failed), (rows, more)| (present + rows, failed + more))
     }
 
-    /// Returns the number of existing rows of all replicates.
-    pub fn rows(&self) -> u64 {
-        self.held().values().map(|piece| piece.rows(self.outputs)).sum()
-    }
-
     /// Removes the rows that failed in an output, and those that were counted together with one of them, so that they
     /// are missing; returns how many failed.
     pub fn forget_failures(&self) -> u64 {

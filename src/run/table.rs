@@ -1,7 +1,6 @@
 //! Evaluation of tables of points: rows go to the workers, outputs into one batch.
 
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use thiserror::Error;
 
@@ -50,7 +49,7 @@ impl<'a> TableRun<'a> {
         if total == 0 {
             return Ok(());
         }
-        let before = Progress { done: 0, recalled: 0, total, failed: 0, elapsed: Duration::ZERO };
+        let before = Progress { total, ..Progress::default() };
         let is_quick = self.0.model.concurrency().is_none();
         let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
         self.0.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {

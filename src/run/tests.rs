@@ -111,7 +111,8 @@ fn a_run_can_be_given_up_at_the_first_failure() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_failures(FailurePolicy::Fail);
+    let mut run = GrowingRun::new(job, &context, 2).unwrap();
+    run.failures = FailurePolicy::Fail;
     let failed = run.grow_to(1 << 15, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = failed else { panic!("{failed}") };
     assert_eq!(reason, RowFailure::not_finite());
@@ -294,7 +295,8 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
         let design = design(Sampler::Random, 1000, 2);
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, threads).unwrap().with_outputs_kept(true);
+        let mut run = GrowingRun::new(job, &context, threads).unwrap();
+        run.keeps_outputs = true;
         run.grow_to(300, &|_| ()).unwrap();
         run.grow_to(500, &|_| ()).unwrap();
         run.totals().iter().map(|totals| totals.outputs[0].clone()).collect::<Vec<_>>()
@@ -315,9 +317,9 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
     let long = design(Sampler::Random, 1 << 29, 1);
     let job = Job { design: &long, space: &space, model: &model };
     let context = RunContext::default();
-    let run = GrowingRun::new(job, &context, 1).unwrap();
+    let mut run = GrowingRun::new(job, &context, 1).unwrap();
     assert!(run.room_for(1 << 29).is_ok());
-    let mut run = run.with_outputs_kept(true);
+    run.keeps_outputs = true;
     assert!(run.room_for(1 << 28).is_ok());
     let refused = run.grow_to(1 << 29, &|_| ()).unwrap_err();
     assert!(matches!(refused, RunError::TooManyOutputs { bytes: 17_179_869_184, .. }), "{refused}");

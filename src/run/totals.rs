@@ -63,7 +63,9 @@ impl Totals {
     pub fn merge(&mut self, other: &Self) {
         self.add_counts(other);
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.append_sums(theirs);
+            mine.moments.append(&theirs.moments);
+            mine.sample.extend_from_slice(&theirs.sample);
+            mine.point_outputs.append(&theirs.point_outputs);
         }
     }
 
@@ -77,21 +79,9 @@ impl Totals {
             *mine += theirs;
         }
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.add_counts(theirs);
+            mine.values.merge(&theirs.values);
+            mine.runs_failed += theirs.runs_failed;
+            mine.failures.merge(&theirs.failures);
         }
-    }
-}
-
-impl OutputTotals {
-    fn append_sums(&mut self, following: &Self) {
-        self.moments.append(&following.moments);
-        self.sample.extend_from_slice(&following.sample);
-        self.point_outputs.append(&following.point_outputs);
-    }
-
-    fn add_counts(&mut self, other: &Self) {
-        self.values.merge(&other.values);
-        self.runs_failed += other.runs_failed;
-        self.failures.merge(&other.failures);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::{Progress, RunError};
 use crate::clock::Instant;
-use crate::model::{GiveUp, RunContext};
+use crate::model::RunContext;
 
 /// The finished rows of a run, counted by its threads.
 pub(super) struct Tracker<'r> {
@@ -32,9 +32,6 @@ impl<'r> Tracker<'r> {
 
     /// Returns whether the run continues.
     pub fn goes_on(&self) -> bool {
-        if self.context.is_interrupted() {
-            self.end(RunError::Interrupted { done: 0, total: self.before.total });
-        }
         !self.context.is_stopped()
     }
 
@@ -43,15 +40,6 @@ impl<'r> Tracker<'r> {
         let done = self.done.fetch_add(rows, Ordering::Relaxed) + rows;
         let failed = self.failed.fetch_add(failed, Ordering::Relaxed) + failed;
         (self.on_progress)(Progress { done, failed, elapsed: self.start.elapsed(), ..self.before });
-    }
-
-    /// Records that a worker cannot continue.
-    pub fn give_up(&self, give_up: GiveUp) {
-        self.end(if self.context.is_interrupted() {
-            RunError::Interrupted { done: 0, total: self.before.total }
-        } else {
-            RunError::GaveUp(give_up)
-        });
     }
 
     /// Ends the run with an error. The first error counts; of rows that failed, the first in the design.
@@ -80,13 +68,14 @@ impl<'r> Tracker<'r> {
         Guard(self.context)
     }
 
-    /// Returns the error if the run ended early.
+    /// Returns the error if the run ended early. A worker gives up its rows when the run is interrupted.
     pub fn finish(self) -> Result<(), RunError> {
-        let done = self.done.into_inner();
+        let (done, total) = (self.done.into_inner(), self.before.total);
         match self.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
-            None => Ok(()),
-            Some(RunError::Interrupted { total, .. }) => Err(RunError::Interrupted { done, total }),
-            Some(error) => Err(error),
+            None | Some(RunError::GaveUp(_)) if done < total && self.context.is_interrupted() => {
+                Err(RunError::Interrupted { done, total })
+            }
+            error => error.map_or(Ok(()), Err),
         }
     }
 }

@@ -62,11 +62,7 @@ impl Runner<'_> {
             }
             self.begin_lows(run, lows)?;
             let best = run.install(|| best_low(self.study, run, lows, seconds));
-            let mut place = 0;
-            lows.retain(|_| {
-                place += 1;
-                best == Some(place - 1)
-            });
+            *lows = best.map(|best| lows.swap_remove(best)).into_iter().collect();
         }
         loop {
             let reached = run.install(|| stage(self.study, run, lows));
@@ -75,8 +71,8 @@ impl Runner<'_> {
             if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
                 let [shared, cost] = low.seconds();
                 let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
-                if pays && low.can_double() {
-                    low.double()?;
+                if let Some(points) = low.doubled().filter(|_| pays) {
+                    low.grow_own(points)?;
                     continue;
                 }
             }

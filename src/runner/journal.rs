@@ -26,19 +26,12 @@ pub(super) struct RunJournal {
     open: OnceLock<Journal>,
     /// Path and header of the journal of a run that is not yet expected to be long.
     waiting: Mutex<Option<(PathBuf, Value)>>,
-    /// When the first of the current runs began: one that grows has spent time on its estimates before.
-    began: Mutex<Duration>,
 }
 
 impl RunJournal {
     /// Returns a run without a journal.
     pub fn none(study: &Study) -> Self {
-        Self {
-            store: Store::new(study.model().as_ref()),
-            open: OnceLock::new(),
-            waiting: Mutex::new(None),
-            began: Mutex::default(),
-        }
+        Self { store: Store::new(study.model().as_ref()), open: OnceLock::new(), waiting: Mutex::new(None) }
     }
 
     /// Creates a journal at `path`, of a study whose model has `files` (path: digest).
@@ -46,19 +39,14 @@ impl RunJournal {
         Ok(Self { open: Journal::create(path, &header(study, shard, files))?.into(), ..Self::none(study) })
     }
 
-    /// Wraps a resumed journal, whose outputs are in `store`.
-    fn resumed(study: &Study, journal: Journal, store: Store) -> Self {
-        Self { store, open: journal.into(), ..Self::none(study) }
+    /// Wraps a resumed journal with these contents.
+    fn resumed(study: &Study, journal: Journal, contents: &Contents) -> Self {
+        Self { store: recorded(study, contents), open: journal.into(), ..Self::none(study) }
     }
 
     /// Creates the journal of a run that is expected to be long; an error only causes a warning.
     pub fn watch(&self, progress: Progress, outputs: usize, messages: &Messages) {
         let Progress { done, recalled, total, elapsed, .. } = progress;
-        let mut began = self.began.lock().unwrap_or_else(PoisonError::into_inner);
-        if done == recalled {
-            *began = elapsed;
-        }
-        let elapsed = elapsed.saturating_sub(*began);
         let share = done.saturating_sub(recalled) as f64 / total.saturating_sub(recalled).max(1) as f64;
         if elapsed < MIN_ELAPSED || elapsed.as_secs_f64() < share * LONG_RUN.as_secs_f64() {
             return;
@@ -107,7 +95,7 @@ pub(super) fn open_for_parts(
         return RunJournal::create(study, path, None, files);
     };
     match another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)) {
-        None => Ok(RunJournal::resumed(study, journal, recorded(study, &contents))),
+        None => Ok(RunJournal::resumed(study, journal, &contents)),
         Some(why) => {
             drop(journal);
             move_aside(path, &why, messages)?;
@@ -157,20 +145,20 @@ pub(super) fn open(
         let what = "after its last complete record; their runs are evaluated again";
         messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
     }
-    let store = recorded(study, &contents);
+    let resumed = RunJournal::resumed(study, journal, &contents);
     if resume == Resume::RetryFailed {
-        match store.forget_failures() {
+        match resumed.store.forget_failures() {
             0 => messages.send(&format!("note: no run in {} has failed", path.display())),
             1 => messages.send("note: the run that failed is evaluated again"),
             failed => messages.send(&format!("note: the {failed} runs that failed are evaluated again")),
         }
     }
-    let rows = rows_on_record(study, &store);
+    let rows = rows_on_record(study, &resumed.store);
     if rows > 0 {
         let total = study.design.rows();
         messages.send(&format!("note: {rows} of {total} runs are already saved in {}", path.display()));
     }
-    Ok(RunJournal::resumed(study, journal, store))
+    Ok(resumed)
 }
 
 /// Opens the journal at `path` and reads it; returns `None` if there is none, or if it was invalid and moved aside.

@@ -48,12 +48,8 @@ struct LowPart {
 }
 
 impl LowStudy {
-    /// Returns the low-fidelity models of the study that `runner` runs.
-    pub fn all(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<Vec<Self>, RunError> {
-        runner.study.lows.iter().map(|low| Self::new(runner, low, context)).collect()
-    }
-
-    fn new(runner: &Runner<'_>, low: &LowFidelity, context: &RunContext<'_>) -> Result<Self, RunError> {
+    /// Prepares a low-fidelity model of the study that `runner` runs.
+    pub fn new(runner: &Runner<'_>, low: &LowFidelity, context: &RunContext<'_>) -> Result<Self, RunError> {
         let study = runner.study;
         let settings = study.design.settings();
         let base_samples = match low.base_samples {
@@ -71,27 +67,21 @@ impl LowStudy {
             of_low.target = Target::default();
             of_low.lows = Vec::new();
             of_low.analysis.surrogate = SurrogateChoice::On;
-            LowPart::new(runner, of_low, &format!("{}-{kind}", crate::names::file_part(&low.name)), context)
+            let (model, longest) = (of_low.model(), of_low.design.longest());
+            // The runs of a program have a journal next to that of the study, if there is one.
+            let journal = match runner.journal.as_deref().filter(|_| model.concurrency().is_some()) {
+                None => RunJournal::none(&of_low),
+                Some(path) => {
+                    let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
+                    let path = sibling_path(path, &format!("{}-{kind}", crate::names::file_part(&low.name)));
+                    let part = Runner { study: &of_low, resume, ..runner.clone() };
+                    journal::open(&part, &path, None, context.messages())?
+                }
+            };
+            Ok::<_, RunError>(LowPart { study: of_low, model, longest, journal })
         };
         let parts = [part(study.design.clone(), "shared")?, part(own, "own")?];
         Ok(Self { name: low.name.clone(), base_samples: low.base_samples, parts })
-    }
-}
-
-impl LowPart {
-    /// Prepares the runs of a model. Those of a program have a journal next to that of the study, if there is one.
-    fn new(runner: &Runner<'_>, study: Study, kind: &str, context: &RunContext<'_>) -> Result<Self, RunError> {
-        let model = study.model();
-        let longest = study.design.longest();
-        let journal = match runner.journal.as_deref().filter(|_| model.concurrency().is_some()) {
-            None => RunJournal::none(&study),
-            Some(path) => {
-                let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
-                let part = Runner { study: &study, resume, ..runner.clone() };
-                journal::open(&part, &sibling_path(path, kind), None, context.messages())?
-            }
-        };
-        Ok(Self { study, model, longest, journal })
     }
 }
 
@@ -119,15 +109,17 @@ impl<'a> LowRun<'a> {
         studies: &'a [LowStudy],
         context: &'a RunContext<'a>,
     ) -> Result<Vec<Self>, RunError> {
-        let run = |subject: u64, part: &'a LowPart| {
+        let run = |subject: usize, part: &'a LowPart| {
             let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
-            let run = GrowingRun::new(job, context, runner.threads)?;
-            let run = run.with_outputs_kept(true).with_remote(runner.remote_for(subject)).with_sink(&part.journal);
-            let is_stored = part.model.is_slow() || part.journal.is_open();
-            Ok::<_, RunError>((if is_stored { run.with_store(&part.journal.store) } else { run }, 0.0))
+            let mut run = GrowingRun::new(job, context, runner.threads)?.with_remote(runner.remote_for(subject));
+            run.keeps_outputs = true;
+            run.sink = Some(&part.journal);
+            let is_stored = part.model.is_slow() || part.journal.is_open() || runner.remote.is_some();
+            run.store = is_stored.then_some(&part.journal.store);
+            Ok::<_, RunError>((run, 0.0))
         };
         let of_study = |(number, study): (usize, &'a LowStudy)| {
-            let subject = number as u64 + 1;
+            let subject = number + 1;
             let [shared, own] = &study.parts;
             let runs = [run(subject, shared)?, run(subject, own)?];
             Ok(Self { study, runs, own: (own.study.design.clone(), Vec::new()) })
@@ -166,12 +158,8 @@ impl<'a> LowRun<'a> {
         self.grow_own(points)
     }
 
-    /// Doubles its own runs.
-    pub fn double(&mut self) -> Result<(), RunError> {
-        self.grow_own(self.runs[1].0.points_per_replicate() * 2)
-    }
-
-    fn grow_own(&mut self, points: u64) -> Result<(), RunError> {
+    /// Evaluates its own runs for `points` base points of every replicate.
+    pub fn grow_own(&mut self, points: u64) -> Result<(), RunError> {
         self.grow(1, points)?;
         let (run, study) = (&self.runs[1].0, &self.study.parts[1].study);
         let design = run.design().with_points(run.points_per_replicate()).unwrap_or_else(|_| run.design().clone());
@@ -183,12 +171,13 @@ impl<'a> LowRun<'a> {
         Ok(())
     }
 
-    /// Returns whether its own runs can be doubled.
-    pub fn can_double(&self) -> bool {
+    /// Returns twice the base points of its own runs, if these can be doubled.
+    pub fn doubled(&self) -> Option<u64> {
         let points = self.runs[1].0.points_per_replicate() * 2;
         let design = &self.study.parts[1].longest;
         let rows = points * design.settings().replicates * design.rows_per_point();
-        self.study.base_samples.is_none() && rows <= MAX_OWN_ROWS && points <= design.points_per_replicate()
+        let is_possible = rows <= MAX_OWN_ROWS && points <= design.points_per_replicate();
+        (self.study.base_samples.is_none() && is_possible).then_some(points)
     }
 
     /// Returns the seconds of a run at the rows of the model; 0 before any.

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::journal::{self, RunJournal, recorded, refused};
 use super::model_files::differing;
 use crate::model::Messages;
-use crate::run::{OutputSink as _, Piece, RunError, Shard, Store};
+use crate::run::{OutputSink as _, RunError, Shard, Store};
 use crate::study::Study;
 
 /// Returns the journal at `path` extended by the contents of `journals`, the whole of the design.
@@ -21,10 +21,6 @@ pub(super) fn merged(
     let files = files_of_all(study, journals)?;
     let record = journal::open_for_parts(study, path, &files, messages)?;
     let store = &record.store;
-    let put = |piece: &Piece| {
-        store.insert(piece);
-        record.append(piece).map_err(|source| RunError::NotKept { source })
-    };
     let mut shards = Shards::default();
     for journal in journals {
         let contents = journal::read(study, journal)?;
@@ -33,18 +29,15 @@ pub(super) fn merged(
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
             let gaps = store.missing(piece.replicate, rows.clone());
-            if gaps.iter().map(|gap| gap.end - gap.start).sum::<u64>() == rows.end - rows.start {
-                put(&piece)?;
-                continue;
-            }
             // Counts over a piece cannot be divided.
-            if piece.is_counted() && !gaps.is_empty() {
+            if piece.is_counted() && gaps.iter().any(|gap| *gap != rows) {
                 let why = "holds some runs that are already merged and some that are not: merge the shards of one \
                            run only, into a folder without a journal (--out)";
                 return Err(refused(journal, why.to_owned()));
             }
-            for gap in gaps {
-                part.piece(piece.replicate, gap).map_or(Ok(()), |piece| put(&piece))?;
+            for piece in gaps.into_iter().filter_map(|gap| part.piece(piece.replicate, gap)) {
+                store.insert(&piece);
+                record.append(&piece).map_err(|source| RunError::NotKept { source })?;
             }
         }
     }
@@ -64,12 +57,8 @@ pub(super) fn merged(
 fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> {
     let mut first: Option<(&PathBuf, Value)> = None;
     for journal in journals {
-        let contents = journal::read(study, journal)?;
-        let files = contents.header["files"].clone();
-        let Some((other, known)) = &first else {
-            first = Some((journal, files));
-            continue;
-        };
+        let files = journal::read(study, journal)?.header["files"].take();
+        let (other, known) = first.get_or_insert_with(|| (journal, files.clone()));
         if let Some(names) = differing(known, &files) {
             let other = other.display();
             let reason = format!("evaluated with another {names} than {other}: evaluate one of the two shards again");

@@ -8,7 +8,6 @@ mod merge;
 mod model_files;
 mod worker;
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -16,14 +15,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use growth::Grown;
 use journal::RunJournal;
 use low_fidelity::{LowRun, LowStudy};
-pub use worker::WorkerStudy;
+pub use worker::{Requests, WorkerStudy};
 
 use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
 use crate::result::{StudyResult, Warning};
 use crate::run::{
-    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
-    rows_to_repeat, threads_in_force,
+    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows,
+    threads_in_force,
 };
 use crate::study::Study;
 
@@ -125,15 +124,6 @@ pub struct Runner<'a> {
     store: Option<&'a Store>,
 }
 
-impl fmt::Debug for Runner<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { study, threads, journal, resume, .. } = self;
-        let mut fields = f.debug_struct("Runner");
-        fields.field("study", &study.name).field("threads", threads).field("journal", journal).field("resume", resume);
-        fields.finish_non_exhaustive()
-    }
-}
-
 impl<'a> Runner<'a> {
     /// Sets the number of threads, up to 1024 (default 0: one per core). The result has the same bits for any number.
     pub fn threads(self, threads: usize) -> Self {
@@ -214,9 +204,9 @@ impl<'a> Runner<'a> {
         let journal = self.open(Some(shard), context.messages())?;
         let (study, model) = (self.study, self.study.model());
         let rows = shard.rows(&study.design);
-        let filled = self
-            .set_up(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)
-            .and_then(|run| run.with_sink(&journal).run_missing(&rows, &journal.store, &*self.on_progress));
+        let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
+        let run = self.set_up(job, &context, &journal)?;
+        let filled = run.run_missing(&rows, &journal.store, &*self.on_progress);
         context.messages().finish();
         filled?;
         journal.sync()?;
@@ -262,7 +252,12 @@ impl<'a> Runner<'a> {
         self.journal.as_deref().ok_or(RunError::NoJournal { what })
     }
 
-    fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError>
+    fn set_up<'r>(
+        &self,
+        job: Job<'r>,
+        context: &'r RunContext<'r>,
+        journal: &'r RunJournal,
+    ) -> Result<GrowingRun<'r>, RunError>
     where
         'a: 'r,
     {
@@ -272,12 +267,15 @@ impl<'a> Runner<'a> {
             let source = format!("at most {MAX_THREADS}").into();
             return Err(RunError::Threads { threads: self.threads, source });
         }
-        let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);
-        Ok(run.with_outputs_kept(self.study.needs_outputs()).with_remote(self.remote_for(0)))
+        let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
+        run.failures = self.study.analysis.failures;
+        run.keeps_outputs = self.study.needs_outputs();
+        run.sink = Some(journal);
+        Ok(run)
     }
 
     /// Returns the remote workers for the model with that index: see [`Remote::subject`].
-    fn remote_for(&self, subject: u64) -> Option<Remote<'a>> {
+    fn remote_for(&self, subject: usize) -> Option<Remote<'a>> {
         self.remote.map(|workers| Remote { workers, subject })
     }
 
@@ -299,13 +297,12 @@ impl<'a> Runner<'a> {
             journal.watch(progress, outputs, context.messages());
             (self.on_progress)(progress);
         };
-        let mut run = self.set_up(job, context)?.with_sink(&journal);
-        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow());
+        let mut run = self.set_up(job, context, &journal)?;
+        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow() || self.remote.is_some());
         let store = self.store.or(own);
-        if let Some(store) = store {
-            run = run.with_store(store);
-        }
-        let low_studies = LowStudy::all(self, context)?;
+        run.store = store;
+        let low_studies = study.lows.iter().map(|low| LowStudy::new(self, low, context));
+        let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
         let mut lows = LowRun::all(self, &low_studies, context)?;
         let grown = self.run_all(&mut run, &mut lows, &on_progress);
         // An error of the run takes precedence over one of its journal.
@@ -324,7 +321,7 @@ impl<'a> Runner<'a> {
         };
         let mut result = run.install(|| result(&finished, stopped.as_ref()));
         let evaluated = evaluated.into_inner();
-        if let Some(repeats) = repeats_of(Job { design: &design, ..job }, context, evaluated, store) {
+        if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
             for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
                 let text = repeats.warning(*differing, study.space.noise().is_some());
                 output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
@@ -347,12 +344,4 @@ impl<'a> Runner<'a> {
         }
         if target.grows() { self.grow(run, lows, on_progress).map(Some) } else { Ok(None) }
     }
-}
-
-/// Repeats some rows of a run in which `evaluated` rows were evaluated, if its model may be random. A model that no
-/// longer responds does not cost the result.
-fn repeats_of(job: Job<'_>, context: &RunContext<'_>, evaluated: u64, store: Option<&Store>) -> Option<Repeats> {
-    let rows = rows_to_repeat(job.design, evaluated);
-    let is_worth_it = job.model.may_be_random() && !rows.is_empty();
-    if is_worth_it { repeat_rows(job, context, &rows, store).ok() } else { None }
 }

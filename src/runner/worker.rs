@@ -1,11 +1,22 @@
-//! A study in a worker process.
+//! A study in a worker process: reads requests and evaluates their rows.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::model::{Model, RunContext};
-use crate::run::{RemoteServer, Request, Requests, refusal};
+use crate::clock::Instant;
+use crate::design::Design;
+use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
+use crate::run::{DesignKey, Reply, Request, RowValues, answered};
 use crate::study::Study;
+
+/// The source of requests and the receiver of replies.
+pub trait Requests {
+    /// Returns the next request; `None` if there are no more.
+    fn next(&mut self) -> Option<Vec<u8>>;
+
+    /// Sends the reply to the last request.
+    fn reply(&mut self, reply: Vec<u8>);
+}
 
 /// A study whose rows are evaluated for a run in another process, which uses it through its
 /// [`RemoteWorkers`](crate::run::RemoteWorkers).
@@ -13,12 +24,6 @@ pub struct WorkerStudy {
     study: Study,
     /// The model of the study, then its low-fidelity models.
     models: Vec<Arc<dyn Model>>,
-}
-
-impl std::fmt::Debug for WorkerStudy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("WorkerStudy").field("study", &self.study.name).finish_non_exhaustive()
-    }
 }
 
 impl WorkerStudy {
@@ -34,21 +39,58 @@ impl WorkerStudy {
 
     /// Replies to the requests to one worker until there are no more. Its programs live as long.
     pub fn serve(&self, context: &RunContext<'_>, requests: &mut dyn Requests) {
-        let mut servers: BTreeMap<u64, RemoteServer<'_>> = BTreeMap::new();
+        let mut servers: BTreeMap<usize, RemoteServer<'_>> = BTreeMap::new();
         while let Some(bytes) = requests.next() {
-            let reply = match Request::read(&bytes).and_then(|request| Some((self.model(request.subject)?, request))) {
+            let request = serde_json::from_slice::<Request>(&bytes).ok();
+            let reply = match request.and_then(|request| Some((self.models.get(request.subject)?, request))) {
                 None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
-                    let new = || RemoteServer::new(&self.study.space, model, context);
-                    servers.entry(request.subject).or_insert_with(new).reply(&self.study.design, &request)
+                    let new = || RemoteServer::new(&self.study, model.as_ref(), context);
+                    servers.entry(request.subject).or_insert_with(new).reply(request)
                 }
             };
             requests.reply(reply.write());
         }
         context.messages().finish();
     }
+}
 
-    fn model(&self, number: u64) -> Option<&dyn Model> {
-        self.models.get(usize::try_from(number).ok()?).map(Arc::as_ref)
+/// A worker of one model, which evaluates rows for other processes.
+struct RemoteServer<'a> {
+    study: &'a Study,
+    worker: Box<dyn Worker + 'a>,
+    batch: Batch,
+    /// The design of the last request, and its computed points.
+    current: Option<(DesignKey, Design, RowValues)>,
+}
+
+impl<'a> RemoteServer<'a> {
+    fn new(study: &'a Study, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
+        Self { study, worker: model.worker(context), batch: Batch::new(model), current: None }
     }
+
+    /// Evaluates the rows of a request, of a design that differs from that of the study by its key.
+    fn reply(&mut self, Request { design: key, range, .. }: Request) -> Reply {
+        let current = self.current.take().filter(|(current, ..)| *current == key);
+        let new = || Some((key.clone(), key.design(&self.study.design)?, RowValues::default()));
+        let Some(current) = current.or_else(new) else { return refusal("an unknown design") };
+        let (_, design, values) = self.current.insert(current);
+        let rows = design.points_per_replicate() * design.rows_per_point();
+        if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
+            return refusal("rows that are not in the design");
+        }
+        let begun = Instant::now();
+        let inputs = values.values(&self.study.space, design, range.replicate, range.rows.clone());
+        self.batch.reset(range.count() as usize);
+        self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
+        self.batch.settle();
+        let seconds = begun.elapsed().as_secs_f64();
+        Reply { seconds, given_up: self.batch.given_up().cloned(), pieces: answered(&range, &self.batch) }
+    }
+}
+
+/// Returns the reply to a request that cannot be met.
+fn refusal(what: &str) -> Reply {
+    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {what}")).into());
+    Reply { seconds: 0.0, given_up, pieces: Vec::new() }
 }

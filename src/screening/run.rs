@@ -6,7 +6,7 @@ use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
 use crate::clock::Instant;
 use crate::model::{Batch, RowFailure, RunContext};
-use crate::run::{Halt, Progress, RunError, TableRun};
+use crate::run::{Halt, Progress, RunError, TableRun, failed_rows};
 use crate::space::Factor;
 
 /// The results of some trajectories.
@@ -105,15 +105,11 @@ fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f6
 impl Outcome {
     /// Records the failures and flags of a settled batch.
     fn note(&mut self, batch: &Batch, inputs: &[&[f64]]) {
-        let mut failed: Vec<usize> = Vec::with_capacity(batch.failures().len());
         for (output, row, reason) in batch.failures() {
-            failed.push(*row);
             let values = || inputs.iter().map(|column| column[*row]).collect();
             self.failures.entry((*output, reason.clone())).or_insert_with(|| (0, values())).0 += 1;
         }
-        failed.sort_unstable();
-        failed.dedup();
-        self.failed += failed.len() as u64;
+        self.failed += failed_rows(batch);
         for (sum, raised) in self.flags.iter_mut().zip(batch.flags()) {
             *sum += raised;
         }

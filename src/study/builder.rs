@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::options::{DEFAULT_RESAMPLES, rows};
 use super::rules::{self, Length, wrong};
 use super::subject::{CustomSubject, LowFidelity, Subject};
-use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
+use super::{AnalysisOptions, BuildError, Study, StudySource, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::digest::sha256;
 use crate::model::Model;
@@ -184,8 +184,8 @@ impl StudyBuilder {
     /// [`BuildError`] with what is wrong and what is allowed.
     pub fn build(self) -> Result<Study, BuildError> {
         let mut study = self.checked()?;
-        study.source = in_words(&study);
-        study.sha256 = sha256(study.source.as_bytes());
+        study.source.text = in_words(&study);
+        study.source.sha256 = sha256(study.source.text.as_bytes());
         Ok(study)
     }
 
@@ -242,7 +242,6 @@ impl StudyBuilder {
         if analysis.aggregate && outputs < 2 {
             notes.push("`aggregate` has no effect with a single output".to_owned());
         }
-        let (overrides, source, sha256) = Default::default();
         Ok(Study {
             name: self.name,
             title: self.title,
@@ -252,10 +251,7 @@ impl StudyBuilder {
             analysis,
             target: length.target,
             lows: self.lows,
-            overrides,
-            source,
-            sha256,
-            notes,
+            source: StudySource { notes, ..StudySource::default() },
         })
     }
 }

@@ -45,17 +45,11 @@ pub struct Study {
     pub(crate) target: Target,
     /// Low-fidelity models of the same outputs.
     pub(crate) lows: Vec<LowFidelity>,
-    /// Changes made to the file on the command line, as given.
-    pub(crate) overrides: Vec<String>,
-    /// The text of the file.
-    pub(crate) source: String,
-    /// SHA-256 of the file in hexadecimal.
-    pub(crate) sha256: String,
-    /// Notes on values that were read differently from how they were written, in sentences.
-    pub(crate) notes: Vec<String>,
+    /// Where it is from.
+    pub(crate) source: StudySource,
 }
 
-/// The file that a study was read from.
+/// The file that a study was read from, or a description of a study built in code.
 #[derive(Debug, Clone, Default)]
 pub struct StudySource {
     /// The text of the file.
@@ -175,7 +169,7 @@ impl Study {
 
     /// Adds a note on how the study was read, in a sentence.
     pub fn note(&mut self, note: String) {
-        self.notes.push(note);
+        self.source.notes.push(note);
     }
 
     /// Returns the study with another target; one that does not grow has the default target.
@@ -201,29 +195,29 @@ impl Study {
 
     /// Returns the study as one that was read from a file.
     #[must_use]
-    pub fn with_source(mut self, source: StudySource) -> Self {
-        self.notes.extend(source.notes);
-        Self { source: source.text, sha256: source.sha256, overrides: source.overrides, ..self }
+    pub fn with_source(self, source: StudySource) -> Self {
+        let notes = [self.source.notes, source.notes].concat();
+        Self { source: StudySource { notes, ..source }, ..self }
     }
 
     /// Returns the changes made to the file on the command line, as given.
     pub fn overrides(&self) -> &[String] {
-        &self.overrides
+        &self.source.overrides
     }
 
     /// Returns the text of the file.
     pub fn source(&self) -> &str {
-        &self.source
+        &self.source.text
     }
 
     /// Returns the SHA-256 of the file in hexadecimal.
     pub fn sha256(&self) -> &str {
-        &self.sha256
+        &self.source.sha256
     }
 
     /// Returns notes on values that were read differently from how they were written, in sentences.
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        &self.source.notes
     }
 
     /// Creates the model, ready to run on this study's factors.
@@ -252,31 +246,30 @@ impl Study {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
         let DesignSettings { sampler, replicates, .. } = *design.settings();
         let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
-        fits && match self.analysis.surrogate {
-            SurrogateChoice::Off => false,
-            SurrogateChoice::On => true,
-            SurrogateChoice::Auto if design.plain_rows() > 0 || !self.lows.is_empty() => true,
-            SurrogateChoice::Auto => {
-                let model = self.subject.model(&self.space);
-                let values = design.rows().saturating_mul(model.outputs().len() as u64);
-                if model.concurrency().is_some() {
-                    values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS
-                } else {
-                    values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL
-                        && (self.target.accuracy.is_some() || !self.target.grows())
-                }
+        fits && match self.automatic_values(design) {
+            None => true,
+            Some((values, true)) => values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS,
+            Some((values, false)) => {
+                let has_size = self.target.accuracy.is_some() || !self.target.grows();
+                values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL && has_size
             }
         }
+    }
+
+    /// Returns the rows times outputs of a run of `design`, and whether the model is a program, if these determine
+    /// whether surrogates are fitted.
+    fn automatic_values(&self, design: &Design) -> Option<(u64, bool)> {
+        let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
+        let model = self.model();
+        let values = design.rows().saturating_mul(model.outputs().len() as u64);
+        (is_automatic && design.plain_rows() == 0 && self.lows.is_empty())
+            .then(|| (values, model.concurrency().is_some()))
     }
 
     /// Returns whether surrogates are tried on a part of a run of `design` before they are fitted to it: for fast
     /// models, which could do more runs in that time.
     pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
-        let is_chosen =
-            self.analysis.surrogate != SurrogateChoice::Auto || design.plain_rows() > 0 || !self.lows.is_empty();
-        let model = self.subject.model(&self.space);
-        let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        !is_chosen && model.concurrency().is_none() && values > MAX_AUTOMATIC_VALUES
+        matches!(self.automatic_values(design), Some((values, false)) if values > MAX_AUTOMATIC_VALUES)
     }
 
     /// Returns whether the estimates need the outputs of every run, not only their sums.

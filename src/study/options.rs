@@ -237,28 +237,11 @@ pub(super) const RESAMPLES: RangeInclusive<usize> = 100..=1_000_000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 
-/// Returns the base samples and plain rows of each for the best design of at most `runs` runs in `replicates` of points
-/// of `sampler`; an error with the runs of the smallest such design if that takes more.
-pub(super) fn sizes_within(
-    runs: u64,
-    analysis: &AnalysisOptions,
-    space: &Space,
-    sampler: Sampler,
-    replicates: u64,
-) -> Result<(u64, u32), u64> {
-    let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
-    match Design::new(one, space.factors().len(), rows(analysis, space, 0)) {
-        Ok(one) => split(runs, one.rows_per_point(), replicates, analysis.takes_surrogates(sampler, replicates, space)),
-        // Errors in the rows are reported when the design is created.
-        Err(_) => Ok((2 * replicates, 0)),
-    }
-}
-
 /// Returns the base samples and plain rows of each for at most `runs` runs: a power of two in each of `replicates`,
 /// with `runs_per_point` runs without plain rows. For surrogates an eighth to a third of the runs, preferably more, are
 /// at base samples, and the others at plain rows, used only to fit them. An error with the runs of the smallest design
 /// if that takes more.
-fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
+pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
     const SHARE: u64 = 3;
     let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
     let least = runs_of(2);

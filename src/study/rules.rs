@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
+use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, rows, split};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
-use crate::design::Sampler;
+use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
 use crate::model::{Model, OutputSeries};
 use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
@@ -125,10 +125,8 @@ pub(super) fn checked_options(
     options.measures.sort_unstable();
     options.measures.dedup();
     // Every result contains the default ones.
-    options.estimators.retain(|estimator| *estimator != Estimator::Default);
-    let all = options.estimators.clone();
-    let is_first = |(place, estimator): &(usize, &Estimator)| !all[..*place].contains(estimator);
-    options.estimators = all.iter().enumerate().filter(is_first).map(|(_, estimator)| *estimator).collect();
+    let mut seen = BTreeSet::from([Estimator::Default.name()]);
+    options.estimators.retain(|estimator| seen.insert(estimator.name()));
     Ok(options)
 }
 
@@ -215,7 +213,7 @@ impl Length {
         Ok(())
     }
 
-    /// Returns the base samples, and plain rows of each.
+    /// Returns the base samples, and plain rows of each: with a number of runs those of the best design within it.
     pub(super) fn sizes(
         &self,
         options: &AnalysisOptions,
@@ -226,7 +224,13 @@ impl Length {
         let Some(runs) = self.runs else {
             return Ok((self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)), 0));
         };
-        sizes_within(runs, options, space, sampler, replicates).or_else(|least| {
+        let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
+        // Errors in the rows are reported when the design is created.
+        let Ok(one) = Design::new(one, space.factors().len(), rows(options, space, 0)) else {
+            return Ok((2 * replicates, 0));
+        };
+        let for_surrogates = options.takes_surrogates(sampler, replicates, space);
+        split(runs, one.rows_per_point(), replicates, for_surrogates).or_else(|least| {
             let expected = format!(
                 "{least} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use \
                  random points: `apportion sample STUDY --random {}`, then `apportion given-data`)",

@@ -173,7 +173,6 @@ pub fn sweep(
         outputs: model.outputs(),
         run: TableRun::new(model, context, 0),
         batch: Batch::new(model),
-        runs: 0,
         flags: vec![0; model.flags().len()],
     };
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
@@ -204,9 +203,10 @@ pub fn sweep(
             outputs,
         })
     };
-    let sweeps = factors.iter().map(one).collect::<Result<_, SweepError>>()?;
+    let sweeps = factors.iter().map(one).collect::<Result<Vec<Sweep>, SweepError>>()?;
     context.messages().finish();
-    Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
+    let runs = 1 + sweeps.iter().map(|sweep| sweep.values.len() as u64).sum::<u64>();
+    Ok(Sweeps { nominal, sweeps, runs, flags: bench.flags })
 }
 
 impl SweptOutput {
@@ -222,8 +222,6 @@ struct Bench<'a> {
     outputs: &'a [Output],
     run: TableRun<'a>,
     batch: Batch,
-    /// Number of runs so far.
-    runs: u64,
     /// For each validity flag, the number of runs so far that raised it.
     flags: Vec<u64>,
 }
@@ -241,7 +239,6 @@ impl Bench<'_> {
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             self.batch.reset(values.len());
             self.run.run(&inputs, &mut self.batch)?;
-            self.runs += values.len() as u64;
             self.flags.iter_mut().zip(self.batch.flags()).for_each(|(sum, raised)| *sum += raised);
             for (number, (output, swept)) in self.outputs.iter().zip(&mut swept).enumerate() {
                 let column = self.batch.column(number).iter();

@@ -239,7 +239,8 @@ fn the_physics_gives_the_same_bits_row_by_row() {
         let plain = run(job, 1, &|_| ()).unwrap();
         let store = Store::new(model.as_ref());
         let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
+        let mut run = GrowingRun::new(job, &context, 2).unwrap();
+        run.store = Some(&store);
         run.grow_to(u64::MAX, &|_| ()).unwrap();
         assert!(format!("{:?}", run.totals()) == format!("{plain:?}"), "{fidelity}");
     }

@@ -6,9 +6,7 @@ mod points;
 use std::path::{Path, PathBuf};
 
 use apportion::Study;
-use apportion_cli::trade::extremes::{
-    Extremes, ExtremesFile, ExtremesJob, ExtremesSettings, Outcome, Reference, extremes,
-};
+use apportion_cli::trade::extremes::{Extremes, ExtremesFile, ExtremesJob, Outcome, Reference, extremes};
 
 use crate::common::{all_files, study_path, succeed, text};
 use crate::messages::messages;
@@ -36,8 +34,8 @@ fn loaded(path: &Path) -> Study {
     apportion_files::load_study(path, &changes).unwrap()
 }
 
-fn map_of(study: &Study, settings: ExtremesSettings) -> Extremes {
-    extremes(&ExtremesJob { settings, ..ExtremesJob::new(study) }).unwrap()
+fn map_of(study: &Study, points: u64, seed: u64) -> Extremes {
+    extremes(&ExtremesJob { points, seed, ..ExtremesJob::new(study) }).unwrap()
 }
 
 #[track_caller]
@@ -59,9 +57,8 @@ fn no_study_is_silently_wrong() {
         if !study.space().dependences().is_empty() {
             continue;
         }
-        let own = ExtremesSettings::for_study(&study);
-        let settings = ExtremesSettings { points: own.points / 48, ..own };
-        let map = match extremes(&ExtremesJob { settings, ..ExtremesJob::new(&study) }) {
+        let own = ExtremesJob::new(&study);
+        let map = match extremes(&ExtremesJob { points: own.points / 48, ..own }) {
             Ok(map) => map,
             // Not every machine has numpy.
             Err(error) if error.to_string().contains("numpy") => continue,
@@ -79,8 +76,7 @@ fn other_seeds_find_no_wrong_numbers() {
     for name in ["lugre-general", "coulomb-general", "hk-environmental", "soft-cantilever", "cantilever-formula"] {
         let study = loaded(&study_path(name));
         for seed in 1..=2 {
-            let settings = ExtremesSettings { points: 150, seed };
-            assert_nothing_is_silently_wrong(name, &map_of(&study, settings));
+            assert_nothing_is_silently_wrong(name, &map_of(&study, 150, seed));
         }
     }
 }
@@ -88,8 +84,7 @@ fn other_seeds_find_no_wrong_numbers() {
 #[test]
 fn the_map_is_the_same_in_every_bit_on_any_threads() {
     let study = apportion_files::load_study(&study_path("hk-general"), &[]).unwrap();
-    let settings = ExtremesSettings { points: 60, seed: 5 };
-    let on = |threads| extremes(&ExtremesJob { settings, threads, ..ExtremesJob::new(&study) }).unwrap();
+    let on = |threads| extremes(&ExtremesJob { points: 60, seed: 5, threads, ..ExtremesJob::new(&study) }).unwrap();
     // NaN is replaced by `None` here, so that equal maps compare equal.
     assert_eq!(on(1), on(3));
 }
@@ -112,7 +107,7 @@ fn cancellation_and_underflow_are_flagged() {
         max = 2
     "#;
     let study = apportion_files::parse_study(source, Path::new("lost.toml"), &[]).unwrap();
-    let map = map_of(&study, ExtremesSettings { points: 100, seed: 0 });
+    let map = map_of(&study, 100, 0);
     assert_nothing_is_silently_wrong("lost", &map);
     assert!(map.counts.right > 100, "{:?}", map.counts);
     let has = |outcome: Outcome, output: &str| {
@@ -131,7 +126,7 @@ fn numbers_of_a_model_in_code_are_flagged_and_not_called_right() {
         .base_samples(64)
         .build()
         .unwrap();
-    let map = map_of(&study, ExtremesSettings { points: 50, seed: 0 });
+    let map = map_of(&study, 50, 0);
     assert!(map.counts.right == 0 && map.counts.flagged > 0, "{:?}", map.counts);
     assert!(map.second_calculation.is_none() && map.unchecked.is_some());
 }
@@ -179,7 +174,7 @@ fn a_number_agrees_within_what_is_stated() {
 /// A model with every outcome but a wrong number: flags, refusals and error estimates.
 #[test]
 fn every_outcome_has_its_case() {
-    let map = map_of(&loaded(&study_path("lugre-environmental-viscous")), ExtremesSettings { points: 40, seed: 0 });
+    let map = map_of(&loaded(&study_path("lugre-environmental-viscous")), 40, 0);
     let of = |outcome| map.reasons.iter().filter(move |reason| reason.outcome == outcome).map(|reason| &*reason.reason);
     assert!(of(Outcome::FlaggedConfirmed).all(|reason| reason.starts_with("flags of the model: ")));
     assert!(of(Outcome::Refused).all(|reason| !reason.contains("flags of the model")));

@@ -3,7 +3,7 @@ use std::time::Duration;
 use super::*;
 use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
-use crate::model::{FunctionModel, Model, Output, RowFailure};
+use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext};
 use crate::quantity::Unit;
 use crate::run::{Job, Progress};
 use crate::space::{Distribution, Factor, Space};
@@ -21,9 +21,8 @@ fn fold(job: Job<'_>, points: Range<u64>) -> Vec<Totals> {
     let context = RunContext::default();
     let before = Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO };
     let tracker = Tracker::new(&context, before, Instant::now(), &|_| ());
-    let (failures, keeps_outputs) = (FailurePolicy::DropBlock, false);
-    let (store, sink, idle) = (None, None, Mutex::default());
-    Fold { job, context: &context, failures, keeps_outputs, store, sink, tracker: &tracker, idle }.run(points).unwrap()
+    let run = GrowingRun::new(job, &context, 0).unwrap();
+    Fold { run: &run, tracker: &tracker, idle: Mutex::default() }.run(points).unwrap()
 }
 
 /// The tree of the first version in another form: neighbours of equal size are merged as blocks

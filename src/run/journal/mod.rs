@@ -56,14 +56,12 @@ impl Journal {
         refuse_no_file(path)?;
         // Truncate only once the lock is held: the file may belong to another run.
         let file = open_locked(path, true)?;
-        let journal = Self::writing(file, 0);
+        let mut writer = Writer { file, length: 0, synced: Instant::now() };
         let mut buffer = Vec::new();
         format::write_header(&mut buffer, header);
-        journal
-            .write(&buffer)
-            .and_then(|()| journal.sync())
-            .map_err(|source| JournalError::unwritable(path, source))?;
-        Ok(journal)
+        let written = writer.append(&buffer).and_then(|()| writer.file.sync_data());
+        written.map_err(|source| JournalError::unwritable(path, source))?;
+        Ok(Self { writer: Mutex::new(writer) })
     }
 
     /// Opens the journal at `path` to resume it, and returns it with its contents. Anything after the last complete
@@ -76,12 +74,8 @@ impl Journal {
         let mut file = open_locked(path, false)?;
         let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
         let contents = read_journal(path, &bytes)?;
-        Ok((Self::writing(file, contents.length), contents))
-    }
-
-    fn writing(file: File, length: u64) -> Self {
-        let writer = Writer { file, length, synced: Instant::now() };
-        Self { writer: Mutex::new(writer) }
+        let writer = Writer { file, length: contents.length, synced: Instant::now() };
+        Ok((Self { writer: Mutex::new(writer) }, contents))
     }
 
     /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
@@ -91,12 +85,7 @@ impl Journal {
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
         let mut record = Vec::new();
         format::write_record(&mut record, piece);
-        self.write(&record)
-    }
-
-    fn write(&self, bytes: &[u8]) -> std::io::Result<()> {
-        let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
-        writer.append(bytes)
+        self.writer.lock().unwrap_or_else(PoisonError::into_inner).append(&record)
     }
 
     /// Forces all appended records to the disk.

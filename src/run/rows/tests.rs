@@ -29,10 +29,21 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
     })
 }
 
+impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
+    fn is_open(&self) -> bool {
+        true
+    }
+
+    fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        self(piece)
+    }
+}
+
 fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
     let space = space();
     let context = RunContext::default();
-    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?.with_store(store);
+    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?;
+    run.store = Some(store);
     run.grow_to(points, &|_| ())?;
     Ok(run.totals().to_vec())
 }
@@ -84,7 +95,8 @@ fn shards_make_up_the_whole_run() {
         let space = space();
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
-        let run = GrowingRun::new(job, &context, 2).unwrap().with_sink(&sink);
+        let mut run = GrowingRun::new(job, &context, 2).unwrap();
+        run.sink = Some(&sink);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
         kept.lock().unwrap().iter().for_each(|piece| {
             whole.insert(piece);
@@ -107,7 +119,8 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
         stop.fetch_or(progress.done > 1000, Ordering::Relaxed);
     };
     let context = RunContext::new(Some(&stop), |_| ());
-    let mut stopped = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
+    let mut stopped = GrowingRun::new(job, &context, 2).unwrap();
+    stopped.store = Some(&store);
     let slow = |progress| {
         on_progress(progress);
         std::thread::sleep(Duration::from_millis(5));
@@ -192,7 +205,9 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store).with_sink(&full);
+    let mut run = GrowingRun::new(job, &context, 2).unwrap();
+    run.store = Some(&store);
+    run.sink = Some(&full);
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     assert!(matches!(error, RunError::NotKept { .. }), "{error}");
     assert_eq!(store.count(0, 0..design.rows()).0, 0);
@@ -207,8 +222,9 @@ fn a_failed_row_stops_a_run_that_stops_at_failures() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let run = GrowingRun::new(job, &context, 1).unwrap().with_failures(FailurePolicy::Fail);
-    let error = run.with_store(&store).grow_to(u64::MAX, &|_| ()).unwrap_err();
+    let mut run = GrowingRun::new(job, &context, 1).unwrap();
+    (run.store, run.failures) = (Some(&store), FailurePolicy::Fail);
+    let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = error else { panic!("{error}") };
     assert_eq!(reason.to_string(), "too large");
     let mut u = [0.0; 2];

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use apportion::model::{Expression, Symbol};
 use apportion_afm::{ContactTheory, FrictionLaw};
-use apportion_cli::trade::extremes::{Extremes, ExtremesSettings, Kind, Outcome, Reason};
+use apportion_cli::trade::extremes::{Extremes, Kind, Outcome, Reason};
 use proptest::prelude::*;
 
 use super::{assert_nothing_is_silently_wrong, map_of};
@@ -12,7 +12,7 @@ use crate::common::{Folder, apportion, stderr, text};
 
 /// The map of formulas, by their names, of factors with bounds; as small as it can be.
 fn map(formulas: &[(&str, &str)], factors: &[(&str, f64, f64)]) -> Extremes {
-    map_of(&study(&source(formulas, factors)), ExtremesSettings { points: 1, seed: 0 })
+    map_of(&study(&source(formulas, factors)), 1, 0)
 }
 
 fn source(formulas: &[(&str, &str)], factors: &[(&str, f64, f64)]) -> String {
@@ -91,7 +91,7 @@ proptest! {
 fn a_number_beyond_its_bound_is_wrong() {
     let formula = format!("x{} - x", " + 1.08e-16".repeat(4000));
     let source = source(&[("y", &formula)], &[("x", 1.0, 1.5)]);
-    let map = map_of(&study(&source), ExtremesSettings { points: 1, seed: 0 });
+    let map = map_of(&study(&source), 1, 0);
     let wrong = at_bounds(&map, "y").unwrap();
     assert_eq!((wrong.outcome, wrong.value), (Outcome::Wrong, Some(0.0)));
     assert!((wrong.reference.unwrap() / 4.32e-13 - 1.0).abs() < 1e-12, "{wrong:?}");
@@ -172,7 +172,7 @@ fn every_formula_can_be_read_and_is_that_of_the_closed_form() {
              adhesion_in_load = {adhesion_in_load}\nstep_budget = 1\n\
              [factors]\nheight = {{ min = 12, max = 12.5, unit = \"um\" }}\n"
         );
-        let map = map_of(&study(&source), ExtremesSettings { points: 1, seed: 0 });
+        let map = map_of(&study(&source), 1, 0);
         assert_nothing_is_silently_wrong(&format!("{friction} {contact}"), &map);
         let corners = map.kinds.iter().find(|(kind, _)| *kind == Kind::Corners).unwrap().1;
         assert_eq!(corners.refused, 0, "{friction} {contact}: {:?}", map.reasons);

@@ -4,7 +4,7 @@ use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
 use apportion::space::Distribution;
 use apportion::study::Study;
-use apportion_cli::trade::extremes::{Extremes, ExtremesSettings, Kind, Reason};
+use apportion_cli::trade::extremes::{Extremes, Kind, Reason};
 
 use super::map_of;
 
@@ -18,7 +18,7 @@ fn map(bounds: &[(f64, f64)], points: u64, seed: u64) -> Extremes {
         let unit = Unit::parse("um").unwrap();
         study = study.factor_in(&format!("x{number}"), unit, Distribution::uniform(*min, *max).unwrap());
     }
-    map_of(&study.base_samples(64).build().unwrap(), ExtremesSettings { points, seed })
+    map_of(&study.base_samples(64).build().unwrap(), points, seed)
 }
 
 /// The SI values of the factors.

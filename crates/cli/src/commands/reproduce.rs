@@ -1,6 +1,6 @@
 //! `apportion reproduce`: the papers' figures and claims, on one page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::live::{live_page, place_next_to};
 use super::output::{ChartArguments, deliver};
@@ -10,7 +10,7 @@ use super::{DesignChanges, Threads};
 use crate::reproduce::claims::claims;
 use crate::reproduce::figures::{coulomb, figures};
 use crate::reproduce::percentages::percentages;
-use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, studies};
+use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, general_study, studies};
 
 /// The file of the live page.
 const LIVE: &str = "live.html";
@@ -63,9 +63,7 @@ pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
     let mut document = document(&reproduction);
     if arguments.only.is_none() {
         // The live page begins with all eight factors.
-        let text = include_str!("../../../../studies/coulomb-general.toml");
-        let study = apportion_files::parse_study(text, Path::new("coulomb-general.toml"), &[])?;
-        place_next_to(&mut document, LIVE, live_page(&study, threads, on_signal())?);
+        place_next_to(&mut document, LIVE, live_page(&general_study(), threads, on_signal())?);
     }
     deliver(&artefacts, &document)
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
-use apportion::screening::{self, MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningJob, ScreeningSettings};
+use apportion::screening::{self, MAX_LEVELS, ScreeningDesign, ScreeningJob, ScreeningSettings};
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
 
@@ -20,7 +20,7 @@ pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Number of trajectories; each costs (1 + factors) runs
-    #[arg(long, value_name = "R", default_value_t = 32, value_parser = trajectories, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", default_value_t = 32, allow_negative_numbers = true)]
     trajectories: u64,
     /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), or trajectory (Morris 1991)
     #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory"])]
@@ -35,11 +35,6 @@ pub struct Arguments {
     output: OutputArguments,
     #[command(flatten)]
     threads: Threads,
-}
-
-fn trajectories(text: &str) -> Result<u64, String> {
-    let number = text.parse().ok().filter(|number| *number >= MIN_TRAJECTORIES);
-    number.ok_or_else(|| format!("expected a whole number, at least {MIN_TRAJECTORIES}"))
 }
 
 impl Arguments {

@@ -11,7 +11,7 @@ use super::progress::Meter;
 use super::stop::on_signal;
 use super::{StudyArguments, Threads, say, whole_number};
 use crate::failure::bad_input;
-use crate::trade::extremes::{ExtremesJob, ExtremesSettings, extremes, extremes_document};
+use crate::trade::extremes::{ExtremesJob, extremes, extremes_document};
 use crate::trade::settings::{SettingsJob, compare_settings, settings_document};
 
 /// Seconds that a comparison takes, and a quick one.
@@ -83,23 +83,23 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
 
 /// What becomes of the study at its extremes.
 fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
-    let own = ExtremesSettings::for_study(study);
-    let settings =
-        ExtremesSettings { points: arguments.cells.unwrap_or(own.points), seed: arguments.seed.unwrap_or(own.seed) };
-    let meter = Meter::new(study.name(), settings.points);
+    let own = ExtremesJob::new(study);
+    let (points, seed) = (arguments.cells.unwrap_or(own.points), arguments.seed.unwrap_or(own.seed));
+    let meter = Meter::new(study.name(), points);
     let start = Instant::now();
     let job = ExtremesJob {
-        settings,
+        points,
+        seed,
         threads: arguments.threads.number(),
         stop: Some(on_signal()),
         on_message: say,
         on_progress: &|progress| meter.update(progress),
-        ..ExtremesJob::new(study)
+        ..own
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
     let wrong = map.counts.wrong;
-    deliver(artefacts, &extremes_document(study, settings.seed, map))?;
+    deliver(artefacts, &extremes_document(study, seed, map))?;
     match wrong {
         0 => Ok(()),
         _ => Err(anyhow!("{wrong} numbers are silently wrong: see the table of reasons")),

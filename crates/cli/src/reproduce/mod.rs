@@ -141,7 +141,7 @@ fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, Stu
 }
 
 /// Returns the study that has all factors with their ranges.
-fn general_study() -> Study {
+pub fn general_study() -> Study {
     study("coulomb", "general", &[]).expect("a part of this program")
 }
 

@@ -108,8 +108,14 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
     let mut rows = Vec::new();
     for (friction, key, settings) in models {
-        let results = GROUPS.map(|group| run(key, group.key, settings, effort, threads));
-        let results = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
+        let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
+        // Within half a percentage point of those of the whole.
+        let quick = (effort == Effort::Quick).then_some("design.base_samples=512");
+        let overrides: Vec<String> = own.chain(settings.iter().copied().chain(quick).map(str::to_owned)).collect();
+        let studies = GROUPS.map(|group| study(key, group.key, &overrides).expect("a part of this program"));
+        let results =
+            studies.iter().map(|study| study.runner().threads(threads).run()).collect::<Result<Vec<_>, _>>()?;
         for (place, (_, output)) in OUTPUTS.into_iter().enumerate() {
             for (measure, share) in MEASURES {
                 let of_group = |(group, result): (StudyGroup, &StudyResult)| {
@@ -121,22 +127,6 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
         }
     }
     Ok(rows)
-}
-
-/// Returns the result of one study with both outputs.
-fn run(
-    friction: &str,
-    group: &str,
-    settings: &[&str],
-    effort: Effort,
-    threads: usize,
-) -> Result<StudyResult, RunError> {
-    let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
-    let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
-    // Within half a percentage point of those of the whole.
-    let quick = (effort == Effort::Quick).then_some("design.base_samples=512");
-    let overrides: Vec<String> = own.chain(settings.iter().copied().chain(quick).map(str::to_owned)).collect();
-    study(friction, group, &overrides).expect("a part of this program").runner().threads(threads).run()
 }
 
 /// Summarises the percentages: LG does not define its own and they contradict each other; which of ours are nearest;

@@ -1,10 +1,11 @@
-//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
+//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004: quantities against time with the slip
+//! marked. Each caption states the result in one sentence.
 
 use apportion_afm::FrictionLaw;
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
 use apportion_report::format::{change, force, length, three_digits as short, time};
 
-use super::{SceneSample, SceneStory};
+use super::{NANO, SceneSample, SceneStory};
 
 /// The colours of the quantities, also in the animation: the pushing force has that of the friction law.
 pub(super) const LATERAL: Colour = Colour::Series(4);
@@ -13,20 +14,6 @@ pub(super) const SUBSTRATE: Colour = Colour::Series(6);
 const PARTICLE: Colour = Colour::Series(1);
 const RELATIVE: Colour = Colour::Series(4);
 const TIP: Colour = Colour::Series(5);
-
-/// Factor from SI to nN and nm.
-const NANO: f64 = 1e9;
-
-/// Draws the charts of a story: forces, pushing against critical force, positions, contacts, each against time with the
-/// slip marked, each with the name of its files. Each caption states the result in one sentence.
-pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
-    [
-        ("scene-forces", forces(story)),
-        ("scene-pushing", pushing(story)),
-        ("scene-positions", positions(story)),
-        ("scene-contacts", contacts(story)),
-    ]
-}
 
 /// A quantity in a chart: its name, colour, and a function for its value in the chart's unit.
 struct Curve<'a> {

@@ -3,13 +3,10 @@
 use apportion_report::document::Table;
 use serde_json::{Map, Value, json};
 
-use super::{SceneSample, SceneStory};
+use super::{NANO, SceneSample, SceneStory};
 
 /// A column of numbers: its name with unit, the factor from SI to that unit, and a function for its value in SI.
 type Column = (&'static str, f64, fn(&SceneSample) -> f64);
-
-/// Factor from N to nN and from m to nm.
-const NANO: f64 = 1e9;
 
 /// The numbers of a sample, in the order of the files.
 const COLUMNS: [Column; 15] = [

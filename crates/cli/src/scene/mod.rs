@@ -17,10 +17,13 @@ use apportion_afm::{Critical, Scene};
 use apportion_report::chart::Colour;
 use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
 use apportion_report::format::{self, minus, with_unit};
-pub use charts::{law_colour, scene_charts};
+pub use charts::law_colour;
 pub use columns::{scene_json, scene_number, scene_table};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_axis, mode_diagram_chart};
 pub use player::player_page;
+
+/// Factor from SI to nN and nm.
+pub const NANO: f64 = 1e9;
 
 /// One scene, from the start of the push through sticking and slipping.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +112,13 @@ impl SceneStory {
 /// Builds the document of a scene of the study `study`.
 pub fn scene_document(story: &SceneStory, study: &str) -> Document {
     let animation = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
-    let charts = scene_charts(story).map(|(stem, chart)| Figure::unnumbered(chart, format!("{study}-{stem}")).into());
+    let charts = [
+        (charts::forces(story), "forces"),
+        (charts::pushing(story), "pushing"),
+        (charts::positions(story), "positions"),
+        (charts::contacts(story), "contacts"),
+    ];
+    let charts = charts.map(|(chart, stem)| Figure::unnumbered(chart, format!("{study}-scene-{stem}")).into());
     let table = Part::Table(Table::pairs("Every constant of the scene.", story.setting.iter().cloned()));
     let setting = Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] };
     Report {

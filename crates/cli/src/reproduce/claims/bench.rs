@@ -94,15 +94,12 @@ pub(super) struct Bench<'a> {
     /// The studies with their results.
     pub studies: &'a [Reproduced],
     space: Space,
-    parameters: Vec<&'static Parameter>,
 }
 
 impl<'a> Bench<'a> {
     /// Creates a bench with the ranges of the general study.
     pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Self {
-        let space = general_study().space().clone();
-        let parameters = space.factors().iter().map(|factor| parameter(&factor.name)).collect();
-        Self { physics, sizes: Sizes::new(effort), studies, space, parameters }
+        Self { physics, sizes: Sizes::new(effort), studies, space: general_study().space().clone() }
     }
 
     /// Returns F_cr (N).
@@ -176,15 +173,16 @@ impl<'a> Bench<'a> {
 
     fn scenes(&self, group: Option<&str>, replicate: u64, count: u64) -> Vec<Scene> {
         let mut scenes = vec![Scene::default(); count as usize];
-        let sequence = SobolSequence::scrambled(self.parameters.len(), SEED, replicate);
+        let sequence = SobolSequence::scrambled(self.space.factors().len(), SEED, replicate);
         let (mut u, mut si) = (vec![0.0; scenes.len()], vec![0.0; scenes.len()]);
-        for (place, (factor, parameter)) in self.space.factors().iter().zip(&self.parameters).enumerate() {
+        for (place, factor) in self.space.factors().iter().enumerate() {
             if group.is_some() && factor.group.as_deref() != group {
                 continue;
             }
             sequence.fill(place, 0, &mut u);
             factor.fill_si(&u, &mut si);
-            scenes.iter_mut().zip(&si).for_each(|(scene, &value)| (parameter.set)(scene, value));
+            let set = parameter(&factor.name).set;
+            scenes.iter_mut().zip(&si).for_each(|(scene, &value)| set(scene, value));
         }
         scenes
     }

@@ -8,15 +8,10 @@ use super::Verdict;
 use super::bench::{Bench, Sweep, closed, parameter};
 use super::judge::{Answer, change, nano, number};
 use crate::reproduce::FRICTIONS;
-
-/// The duration of TS04's run (s).
-const DURATION: f64 = 0.4;
+use crate::reproduce::figures::{DURATION, PRINTED_SHEAR_MODULUS};
 
 /// Time after which every scene of the box has slipped (s).
 const FOREVER: f64 = 1e9;
-
-/// The shear modulus that CHK and LG print (Pa).
-const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
 
 /// "Near 0.2 s": read from a chart, to a tenth.
 const SLIP_TIME: (f64, f64) = (0.18, 0.22);

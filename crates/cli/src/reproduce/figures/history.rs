@@ -9,15 +9,14 @@ use apportion_report::format::{force, length, time};
 use super::Drawn;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::{SceneSample, SceneStory, scene_number};
+use crate::scene::{NANO, SceneSample, SceneStory, scene_number};
 
 /// Duration of the scene in the papers (s).
-pub(super) const DURATION: f64 = 0.4;
+pub const DURATION: f64 = 0.4;
 /// The shear modulus of the cantilever that the papers print (Pa); ours is that of an isotropic solid, E/(2 (1 + nu)).
-const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
+pub const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
 /// Coefficients of static friction in TS04 figure 11: around the nominal one.
 const COEFFICIENTS: [f64; 4] = [1.0, 0.8, 0.6, 0.4];
-const NANO: f64 = 1e9;
 
 /// Returns the nominal scene under `law` for [`DURATION`], changed by `change`.
 pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result<SceneStory, Failure> {

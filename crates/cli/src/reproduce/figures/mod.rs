@@ -10,7 +10,7 @@ mod sweep;
 
 use apportion_afm::Failure;
 use apportion_report::chart::Chart;
-pub use history::{ANIMATION_STEM, coulomb};
+pub use history::{ANIMATION_STEM, DURATION, PRINTED_SHEAR_MODULUS, coulomb};
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};

@@ -8,9 +8,8 @@ use apportion_report::format::{force, three_digits as short};
 
 use super::Drawn;
 use crate::scene::simulation::{pushing, scene_modes};
-use crate::scene::{ModeDiagram, ModeLine, law_colour, mode_axis, mode_diagram_chart};
+use crate::scene::{ModeDiagram, ModeLine, NANO, law_colour, mode_axis, mode_diagram_chart};
 
-const NANO: f64 = 1e9;
 /// Contact angles: around the nominal 60 degrees.
 const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 /// Steps between them.

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use crate::reproduce::papers::PrintedFigure;
 use crate::reproduce::{Effort, FRICTIONS, Friction};
+use crate::scene::NANO;
 
-const NANO: f64 = 1e9;
 /// Difference from the closed form, as a part of the force's range, from which the quasi-static rung is drawn too.
 const VISIBLE: f64 = 5e-3;
 /// Relative change of a force below which its size is used as its range.

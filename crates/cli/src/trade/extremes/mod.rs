@@ -9,7 +9,6 @@ mod precise;
 
 use std::any::Any;
 use std::cmp::Reverse;
-use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 use afm_second::AfmSecond;
@@ -26,31 +25,16 @@ use points::{grids, points};
 use precise::reference;
 use serde_json::{Map, Value};
 
-/// The size of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ExtremesSettings {
-    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
-    /// included, even if there are more.
-    pub points: u64,
-    /// Seed of the random points.
-    pub seed: u64,
-}
-
-impl ExtremesSettings {
-    /// Returns settings that take some seconds: fewer points for a program.
-    pub fn for_study(study: &Study) -> Self {
-        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
-        Self { points, seed: study.design().settings().seed }
-    }
-}
-
 /// A search for the extremes of a study.
 #[derive(Clone, Copy)]
 pub struct ExtremesJob<'a> {
     /// The study.
     pub study: &'a Study,
-    /// The size of the search.
-    pub settings: ExtremesSettings,
+    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
+    /// included, even if there are more.
+    pub points: u64,
+    /// Seed of the random points.
+    pub seed: u64,
     /// Threads; 0 for one per core. The result is bitwise the same for any number.
     pub threads: usize,
     /// Stops the search soon after it is set.
@@ -62,10 +46,11 @@ pub struct ExtremesJob<'a> {
 }
 
 impl<'a> ExtremesJob<'a> {
-    /// Uses the settings of [`ExtremesSettings::for_study`], one thread per core, and no messages.
+    /// Uses points for some seconds, fewer for a program, one thread per core, and no messages.
     pub fn new(study: &'a Study) -> Self {
-        let settings = ExtremesSettings::for_study(study);
-        Self { study, settings, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
+        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
+        let seed = study.design().settings().seed;
+        Self { study, points, seed, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
     }
 }
 
@@ -93,27 +78,15 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let space = Space::new(factors.chain(study.subject().further_inputs(study.space())).collect());
     let model = study.subject().model(&space);
     let second = second_calculation(&**study.subject(), &space);
-    let points = points(&space, job.settings.points, job.settings.seed);
-    let gave_up = OnceLock::new();
+    let points = points(&space, job.points, job.seed);
     let found = run_each(
         model.as_ref(),
         job.threads,
         &context,
         points.len() as u64,
-        |worker, number| {
-            let (findings, given_up) = evaluate(model.as_ref(), worker, &points[number as usize].x, &second);
-            if let Some(reason) = given_up {
-                // It would give up at every other point.
-                let _ = gave_up.set(reason);
-                context.end();
-            }
-            findings
-        },
+        |worker, number| evaluate(model.as_ref(), worker, &points[number as usize].x, &second),
         job.on_progress,
     )?;
-    if let Some(reason) = gave_up.into_inner() {
-        return Err(RunError::GaveUp(reason));
-    }
     let mut map = Extremes {
         second_calculation: second.as_ref().ok().map(|second| second.name.clone()),
         unchecked: second.err().map(str::to_owned),
@@ -164,18 +137,21 @@ impl Finding {
     }
 }
 
-/// Returns the outcome of every output at the point `x`, and why the model gave up if it did.
+/// Returns the outcome of every output at the point `x`, or why the model gave up.
 fn evaluate(
     model: &dyn Model,
     worker: &mut dyn Worker,
     x: &[f64],
     second: &Result<SecondCalculation, &'static str>,
-) -> (Vec<Finding>, Option<GiveUp>) {
+) -> Result<Vec<Finding>, GiveUp> {
     let mut batch = Batch::new(model);
     batch.reset(1);
     let inputs: Vec<&[f64]> = x.iter().map(std::slice::from_ref).collect();
     worker.run(&inputs, &mut batch);
     batch.settle();
+    if let Some(give_up) = batch.given_up() {
+        return Err(give_up.clone());
+    }
     let outputs = 0..model.outputs().len();
     let of_output = |output: usize| match batch.failures().iter().find(|(failed, ..)| *failed == output) {
         Some((.., why)) => Err(why.clone()),
@@ -192,7 +168,7 @@ fn evaluate(
         Err(why) => outputs.map(|_| Err(Unchecked::NotAvailable((*why).to_owned()))).collect(),
     };
     let judged = values.into_iter().zip(&references).map(|(value, reference)| judge(value, &flags, reference));
-    (judged.collect(), batch.given_up().cloned())
+    Ok(judged.collect())
 }
 
 /// Judges an output with a `value` or a reason why it has none, the `flags` that the model raised, and a second

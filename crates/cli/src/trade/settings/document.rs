@@ -129,16 +129,6 @@ fn is_rung(curve: &[Measured]) -> bool {
     curve[0].axis == Varied::Fidelity && !curve[0].has_surrogate
 }
 
-/// Returns the smallest error that is drawn: that of the reference, below which errors cannot be distinguished.
-fn least_drawn(file: &Comparison) -> f64 {
-    file.truth.error.unwrap_or(0.0).max(MIN_ERROR)
-}
-
-fn points(file: &Comparison, curve: &[Measured]) -> Vec<(f64, f64)> {
-    let least = least_drawn(file);
-    curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect()
-}
-
 /// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the whole time if the
 /// rung is so slow that it was measured only once.
 fn seconds_of_run(curve: &[Measured]) -> Option<f64> {
@@ -175,6 +165,8 @@ fn floor(file: &Comparison) -> Option<apportion_report::chart::Mark> {
 }
 
 fn chart(file: &Comparison, headline: &str) -> Chart {
+    // Errors below that of the reference cannot be distinguished.
+    let least = file.truth.error.unwrap_or(0.0).max(MIN_ERROR);
     let mut drawn = curves(file);
     let is_chosen = |curve: &str| file.advice.iter().filter_map(|one| setting(file, one)).any(|of| of.curve == curve);
     let is_first = |of: &Measured| of.curve == file.own || is_chosen(&of.curve);
@@ -183,20 +175,20 @@ fn chart(file: &Comparison, headline: &str) -> Chart {
     drawn.truncate(CURVES);
     let lines = drawn.into_iter().enumerate().map(|(place, curve)| {
         let series = Series::new(&curve[0].curve, Colour::Series(place)).stroke(Stroke::SolidWithPoints);
-        series.line(points(file, curve))
+        series.line(curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect())
     });
     let choices = file.advice.chunk_by(|a, b| a.setting == b.setting).filter_map(|alike| {
         let of = setting(file, &alike[0])?;
         let accuracies: Vec<String> = alike.iter().map(|one| significant(one.accuracy)).collect();
         let label = format!("{}: {}, {}", accuracies.join(", "), of.curve, grouped(of.base_samples));
-        let (x, y) = (of.seconds, of.error?.max(least_drawn(file)));
+        let (x, y) = (of.seconds, of.error?.max(least));
         let series = Series::new("the setting to choose for an accuracy", Colour::Reference);
         Some(series.mark(Shape::Point(Point { x, y, label })))
     });
     let caption = format!(
         "Every curve grows from 16 base samples by factors of 4. Where it levels off, the model is what errs, not the number of \
          its runs. Errors below {:.0e} are drawn there.{}",
-        least_drawn(file),
+        least,
         if more > 0 {
             format!(" {} in the table.", count(more as u64, "more curve is", "more curves are"))
         } else {
