@@ -13,9 +13,9 @@ use apportion::text::seconds;
 use tempfile::TempDir;
 
 use super::pick::{MAX_BYTES, Source, Texts};
+use super::process::listen;
 use super::program::{Running, ended_in_words};
 use super::row::{Column, columns, table};
-use super::standard_error::listen;
 use super::template::InputTemplate;
 use super::{CommandModel, not_a_value};
 

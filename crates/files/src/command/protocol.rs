@@ -5,7 +5,7 @@ use apportion::names::named;
 use apportion::text::{cut, masked};
 use serde_json::Value;
 
-use super::answer::{Answer, failed};
+use super::json_answer::{Answer, failed};
 use super::json_answer::{json, json_answer, keys_in_words};
 
 named! {

@@ -9,20 +9,17 @@ mod design_rows;
 mod error;
 mod evaluate;
 mod manifest;
-mod points;
 mod rows;
-mod sample;
-mod save;
 mod table;
 
 pub use answers::{AnswersRequest, read_answers};
+pub use design_rows::save_outputs;
+pub use design_rows::{random_design, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
 pub(crate) use rows::number;
 pub use rows::{Format, ReadOptions, RowReader, open_table};
-pub use sample::{random_design, sample, write_rows};
-pub use save::save_outputs;
 pub use table::{Missing, Selection, Table, read_table};
 // Other items that the program and the tests use.
 pub use {

@@ -8,7 +8,8 @@ use apportion::study::did_you_mean;
 use toml::Value;
 
 use super::at::At;
-use super::error::{Diagnostic, Problem, meant};
+use super::error::{Diagnostic, Problem};
+use super::synonyms::meant;
 
 /// A boxed diagnostic.
 pub(super) type Fault = Box<Diagnostic>;

@@ -1,12 +1,12 @@
-//! The distribution of a factor, from the keys of its `[[factor]]` table.
+//! The distribution of a factor and its nominal value, from the keys of its `[[factor]]` table.
 
 use apportion::space::distribution::{Kind, Parameter};
 use apportion::space::{Distribution, DistributionError};
 
 use super::context::{Context, Fault, unknown_name, wrong};
+use super::dependence::read_measured;
 use super::error::Problem;
-use super::measured;
-use super::sections::{At, FactorSection, TypedKey, TypedValue};
+use super::sections::{At, FactorSection, Nominal, TypedKey, TypedValue};
 
 /// Returns whether a factor's distribution is given by something else than its own parameters.
 pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution) -> bool {
@@ -54,7 +54,7 @@ fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &
                 TypedValue::Text(column) if other.key.name == "column" => Some(column),
                 _ => None,
             });
-            let (values, source) = measured::read(context, file, column)?;
+            let (values, source) = read_measured(context, file, column)?;
             Parameter::Measured(values, source)
         }
         TypedValue::Text(text) => Parameter::Text(text.get_ref().clone()),
@@ -77,4 +77,39 @@ fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &
             Parameter::Quantiles(table.iter().map(pair).collect::<Result<_, Fault>>()?)
         }
     })
+}
+
+/// Returns the value of the typed one, in the factor's unit.
+pub(super) fn nominal_value(factor: &str, distribution: &Distribution, typed: &Nominal) -> Result<f64, Problem> {
+    let (value, found) = match typed {
+        Nominal::Number(number) => (Some(*number), number.to_string()),
+        Nominal::Truth(truth) => (distribution.value_of(&truth.to_string()), truth.to_string()),
+        Nominal::Label(label) => (distribution.value_of(label), format!("\"{label}\"")),
+    };
+    match value.filter(|value| is_value(distribution, *value)) {
+        Some(value) => Ok(value),
+        None => Err(Problem::with_help(
+            format!("factor `{factor}`: its nominal value is {found}, which is not one of its values"),
+            format!("it takes {}", values(distribution)),
+        )),
+    }
+}
+
+/// Returns whether whole numbers and categories have this value; true for other distributions.
+pub(super) fn is_value(distribution: &Distribution, value: f64) -> bool {
+    match distribution {
+        Distribution::Categorical(categories) => categories.label(value).is_some(),
+        whole if whole.is_whole() => value.fract() == 0.0,
+        _ => true,
+    }
+}
+
+fn values(distribution: &Distribution) -> String {
+    match distribution {
+        Distribution::Categorical(categories) => {
+            categories.categories().map(|(label, value, _)| format!("{label} ({value})")).collect::<Vec<_>>().join(", ")
+        }
+        whole if whole.is_whole() => "whole numbers".to_owned(),
+        _ => "a number".to_owned(),
+    }
 }

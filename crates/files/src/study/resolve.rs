@@ -17,7 +17,7 @@ use super::error::Problem;
 use super::models::{ModelTable, Reading, TABLES, table_of};
 use super::sections::{At, FactorSection, Nominal, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{analysis, distribution, noise, nominal, read};
+use super::{analysis, distribution, read};
 use crate::ModelKind;
 
 /// Returns the study of the text of `context`, and notes on keys without effect.
@@ -28,7 +28,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault
     let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
-    let subject = noise::repeated(context, &file, subject, &space)?;
+    let subject = analysis::repeated(context, &file, subject, &space)?;
     let stem =
         || context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()));
     let name = file.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(stem);
@@ -158,7 +158,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         }
     }
     let stated = |typed: &At<Nominal>| {
-        let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
+        let value = context.at(typed, distribution::nominal_value(&input.name, &distribution, typed.get_ref()))?;
         let found = || outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol())));
         Some(value).filter(|value| in_domain(*value) && value.is_finite()).ok_or_else(found)
     };
@@ -174,6 +174,6 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));
-    let fits = low <= nominal && nominal <= high && nominal::is_value(distribution, nominal);
+    let fits = low <= nominal && nominal <= high && distribution::is_value(distribution, nominal);
     if fits { nominal } else { distribution.central() }
 }

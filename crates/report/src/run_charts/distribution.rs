@@ -2,8 +2,8 @@
 
 use apportion::result::{OutputDistribution, OutputResult, StudyResult};
 
-use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
-use super::super::format::{axis_unit, grouped, minus, name, short_among, significant, words};
+use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use crate::format::{axis_unit, grouped, minus, name, short_among, significant, words};
 
 /// Draws the distribution of an output; without values, the reason.
 pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart {

@@ -1,12 +1,12 @@
-//! The output against its most influential factors.
+//! The output against its most influential factors, which may be categories.
 
 use apportion::result::{FactorRecord, OutputResult, ScatterRecord, StudyResult};
+use serde_json::Value;
 
-use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, Stroke};
-use super::super::factor_bars::not_drawn;
-use super::super::format::{axis_unit, fixed, minus, name, words};
-use super::super::leading::no_indices;
-use super::categories::Categories;
+use crate::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, Stroke};
+use crate::factor_bars::not_drawn;
+use crate::format::{axis_unit, fixed, minus, name, words};
+use crate::leading::no_indices;
 
 /// Part of the largest value below which the median makes a linear axis unreadable: most points would be at its foot.
 const PRESSED: f64 = 0.02;
@@ -86,4 +86,37 @@ fn caption(result: &StudyResult, scatter: &ScatterRecord) -> String {
         scatter.points.len(),
         not_drawn(result.factors.len(), scatter.factors.len())
     )
+}
+
+/// Maximum number of categories with labels; more are drawn by number, since their labels would be only a letter long.
+const MAX_CATEGORIES: usize = 12;
+
+/// The labels of a factor, and the numbers that represent them in the result.
+pub(super) struct Categories {
+    /// In the order of the study.
+    pub labels: Vec<String>,
+    values: Vec<f64>,
+}
+
+impl Categories {
+    /// Returns the categories of a factor that has few.
+    pub fn new(factor: &FactorRecord) -> Option<Self> {
+        let parameter = |key: &str| factor.distribution.get(key);
+        let list = |key: &str| parameter(key).and_then(Value::as_array);
+        let (labels, values): (Vec<String>, Vec<f64>) = match parameter("name").and_then(Value::as_str)? {
+            "boolean" => (vec!["false".to_owned(), "true".to_owned()], vec![0.0, 1.0]),
+            "categorical" => (
+                list("labels")?.iter().map(|label| label.as_str().map(str::to_owned)).collect::<Option<_>>()?,
+                list("values")?.iter().map(Value::as_f64).collect::<Option<_>>()?,
+            ),
+            _ => return None,
+        };
+        let few = (1..=MAX_CATEGORIES).contains(&labels.len()) && labels.len() == values.len();
+        few.then_some(Self { labels, values })
+    }
+
+    /// Returns the position of a value; NaN for one that is not a category.
+    pub fn place(&self, value: f64) -> f64 {
+        self.values.iter().position(|other| *other == value).map_or(f64::NAN, |place| place as f64)
+    }
 }

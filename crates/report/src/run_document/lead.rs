@@ -7,8 +7,8 @@ use apportion::text::listed;
 use super::overview;
 use super::shared::complement;
 use crate::format::{grouped, index, is_above_zero, name, percent, two_digits};
-use crate::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::leading::{self, Contender, by_total, first_answers, leader_of};
+use crate::leading::{WIDE, indices_measured, widest_interval};
 
 /// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
 pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
@@ -31,7 +31,7 @@ pub(super) fn answer(output: &OutputResult) -> String {
         next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();
     let verb = if next.len() == 1 { "comes" } else { "come" };
     let next = (!next.is_empty()).then(|| format!("Next {verb} {}.", listed(&next)));
-    let sentences = [Some(leader_of(output)), super::noise::sentence(output).or(next)];
+    let sentences = [Some(leader_of(output)), super::output::sentence(output).or(next)];
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 

@@ -1,17 +1,16 @@
 //! The topics of the document on one output.
 
-use apportion::result::{IndexRecord, OutputResult, SurrogateTrial};
+use apportion::given::Measure;
+use apportion::result::{IndexRecord, NoiseRecord, OutputResult, RunMeasures, StudyResult, SurrogateTrial};
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, PAIRS, SCATTER, SHARES};
-use super::measures::measures;
-use super::noise::noise;
-use super::shared::{definitions, failed_runs};
-use super::warnings::grouped_warnings;
+use super::shared::{complement, definitions, failed_runs, grouped_warnings};
+use super::tables::FACTORS;
 use super::{lead, tables, values};
-use crate::document::Part;
-use crate::format::{among_with_unit, count, grouped, minus, name, share_of_runs, significant, two_digits};
-use crate::interval_widths::{WIDE, indices_measured, widest_of};
-use crate::leading::no_indices;
+use crate::document::{Part, Table, csv};
+use crate::format::{among_with_unit, count, grouped, minus, name, percent, share_of_runs, significant, two_digits};
+use crate::given::{agreement, measures_table};
+use crate::leading::{WIDE, by_total, indices_measured, no_indices, widest_of};
 
 /// A topic: a section if there is one output, a part of the output's section if there are several.
 pub(super) struct Topic {
@@ -185,4 +184,71 @@ fn estimators(output: &OutputResult) -> Vec<Part> {
         true => parts,
         false => vec![Part::Details { summary: "Indices by estimator".to_owned(), parts }],
     }
+}
+
+/// States the share of the variance of a stochastic model's output that no factor explains.
+pub(super) fn sentence(output: &OutputResult) -> Option<String> {
+    let total = output.noise.as_ref()?.effect.total;
+    Some(format!("Of the variance, {} is noise that no factor explains.", percent(total)))
+}
+
+/// Describes the noise of a stochastic model, and the indices of the mean over it.
+pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
+    let Some(noise) = &output.noise else { return Vec::new() };
+    let mut text = sentence(output).unwrap_or_default();
+    if noise.mean_share.estimate > 0.0 {
+        let rest = percent(complement(noise.effect.total));
+        text.push_str(&format!(" The mean over the noise has {rest}: its indices refer to that variance only."));
+    }
+    if noise.of_mean.iter().all(|of_mean| of_mean.total.is_none()) {
+        text.push_str(" Its total indices need one more run for each factor: `mean_totals = true` in [noise].");
+    }
+    let table = (noise.mean_share.estimate > 0.0).then(|| noise_table(output, noise).into());
+    [Part::Text(text)].into_iter().chain(table).collect()
+}
+
+/// Tabulates the first-order indices of the values next to the indices of the mean over the noise.
+fn noise_table(output: &OutputResult, noise: &NoiseRecord) -> Table {
+    let order = by_total(output).unwrap_or_default();
+    let of_mean = |index: &IndexRecord| noise.of_mean.iter().find(|of_mean| of_mean.name == index.factor);
+    Table::from_rows("Indices of the values and of the mean over the noise, each of its own variance.", order)
+        .text("factor", |(_, index)| name(&index.factor))
+        .number("S_1 of a value", |(_, index)| index.effect.first_order)
+        .number("S_1 of the mean", |(_, index)| of_mean(index).and_then(|of_mean| of_mean.first_order))
+        .number("S_T of the mean", |(_, index)| of_mean(index).and_then(|of_mean| of_mean.total))
+        .first(FACTORS, "factors, all in the JSON file")
+        .into()
+}
+
+/// Describes the measures, with a row for each factor.
+pub(super) fn measures(output: &OutputResult) -> Vec<Part> {
+    let Some(record) = &output.measures else { return Vec::new() };
+    let wanted = wanted([record]);
+    let text = format!(
+        "{} They are estimated from the first {} rows A and B of the run, as from given data.",
+        agreement(&output.name, &record.factors, &wanted),
+        grouped(record.rows as u64)
+    );
+    vec![Part::Text(text), measures_table_of(output, record, &wanted).into()]
+}
+
+/// Returns the measures that any of the records has.
+fn wanted<'a>(records: impl IntoIterator<Item = &'a RunMeasures>) -> Vec<Measure> {
+    let factors: Vec<_> = records.into_iter().flat_map(|record| &record.factors).collect();
+    let is_there = |measure: &Measure| factors.iter().any(|of| of.measures.contains_key(measure));
+    Measure::ALL.into_iter().filter(is_there).collect()
+}
+
+fn measures_table_of(output: &OutputResult, record: &RunMeasures, wanted: &[Measure]) -> Table {
+    let table = measures_table(&output.name, ("factor", &record.factors), wanted);
+    let printed = Some((0..table.rows.len().min(FACTORS)).collect());
+    Table { printed, ..table }
+}
+
+/// Formats the measures of all outputs as CSV.
+pub(super) fn measures_csv(result: &StudyResult) -> String {
+    let wanted = wanted(result.outputs.iter().filter_map(|output| output.measures.as_ref()));
+    let tables =
+        result.outputs.iter().filter_map(|output| Some(measures_table_of(output, output.measures.as_ref()?, &wanted)));
+    csv(tables)
 }
