@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use super::design_rows::factor_column;
 use super::error::{TableError, place_in_words, refused};
-use super::rows::{ColumnKind, Format, RowReader, row_writer};
+use super::rows::{ColumnKind, Format, RowReader, RowWriter};
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]
@@ -79,7 +79,7 @@ pub fn evaluate(
         ..Evaluated::default()
     };
     let copied: &[Factor] = if with_points { factors } else { &[] };
-    let mut writer = row_writer(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
+    let mut writer = RowWriter::new(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {
@@ -156,7 +156,7 @@ impl<'a> PointsReader<'a> {
             if let Some(factor) = known().position(|factor| factor == name) {
                 wanted.push((place, factor_column(&space.factors()[factor])));
                 factors.push(factor);
-            } else if rows.text_columns()?.contains(&place) {
+            } else if rows.text_columns()?.iter().any(|(text, _)| *text == place) {
                 skipped.push(name);
             } else {
                 let (column, hint) = (place + 1, did_you_mean(&nearest(&name, known())));

@@ -13,7 +13,6 @@ mod rows;
 mod table;
 
 pub use answers::{AnswersRequest, read_answers};
-pub use design_rows::save_outputs;
 pub use design_rows::{random_design, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
@@ -24,8 +23,8 @@ pub use table::{Missing, Selection, Table, read_table};
 // Other items that the program and the tests use.
 pub use {
     answers::{Answers, first_output, output_columns},
-    design_rows::{DesignRows, RowBlock, factor_column},
+    design_rows::factor_column,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
+    rows::{ColumnKind, RowWriter, table_of_bytes},
     table::DroppedRows,
 };
