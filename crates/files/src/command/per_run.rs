@@ -35,7 +35,7 @@ pub struct PerRun {
 }
 
 /// Names of the files in a run's directory with the output of the program.
-const STDOUT: &str = "stdout.txt";
+pub(super) const STDOUT: &str = "stdout.txt";
 const STDERR: &str = "stderr.txt";
 
 /// Modification time set for files that are copied for a run, if outputs are read from them: a run that has not written
@@ -166,8 +166,7 @@ impl<'a> PerRunWorker<'a> {
     fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let settings = &self.model.settings;
         let (mut missing, mut found) = (None, false);
-        let stdout = directory.join(STDOUT);
-        let mut texts = Texts::new(directory, &stdout);
+        let mut texts = Texts::new();
         for (column, place) in settings.asked.iter().enumerate() {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
@@ -175,7 +174,7 @@ impl<'a> PerRunWorker<'a> {
                 Source::File(name) if is_from_before(&directory.join(name)) => {
                     Err(format!("the run did not change `{name}`"))
                 }
-                _ => pick.number(&mut texts),
+                _ => pick.number(directory, &mut texts),
             };
             match number {
                 Ok(value) if value.is_finite() => {

@@ -25,7 +25,6 @@ pub(super) enum Event {
 }
 
 /// How a process ended.
-#[derive(Clone)]
 pub(super) struct Ending {
     /// Its exit status, if there is one.
     pub status: Option<ExitStatus>,
@@ -33,12 +32,6 @@ pub(super) struct Ending {
     pub by_itself: bool,
     /// The last line that it wrote to standard error.
     pub last_words: String,
-}
-
-impl Ending {
-    pub(super) fn is_success(&self) -> bool {
-        self.status.is_some_and(|status| status.success())
-    }
 }
 
 /// A process that is kept alive. When dropped, its input is closed and it has a moment to end by itself.
