@@ -7,7 +7,7 @@ mod pairs;
 mod scatter;
 
 pub use distribution::distribution_chart;
-pub(super) use map::{SeriesOf, along_chart};
+pub(super) use map::{along_chart, values};
 pub(super) use map::{map_chart, overall_order, together, together_chart};
 pub use pairs::convergence_chart;
 pub use pairs::indices_chart;

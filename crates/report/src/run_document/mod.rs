@@ -13,7 +13,6 @@ use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
 use apportion::text::{capitalised, listed};
 use figures::Figures;
-use output::Topic;
 pub use series::one_output;
 use shared::grouped_warnings;
 pub(crate) use tables::{FACTORS, IN_CSV};
@@ -100,7 +99,7 @@ fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
     for (number, output) in (1..).zip(&result.outputs) {
         let topics = output::topics(figures, number);
         if figures.is_only {
-            sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
+            sections.extend(topics);
         } else {
             let heading = super::format::heading(&output.name, &output.unit);
             sections.push(Section::new(&format!("output-{number}"), &heading, under_headings(topics)));
@@ -115,8 +114,8 @@ fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
 }
 
 /// Joins the parts of all topics, each under its title.
-fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
-    let under = |Topic { title, parts, .. }: Topic| std::iter::once(Part::Heading(title.to_owned())).chain(parts);
+fn under_headings(topics: Vec<Section>) -> Vec<Part> {
+    let under = |Section { title, parts, .. }: Section| std::iter::once(Part::Heading(title)).chain(parts);
     topics.into_iter().flat_map(under).collect()
 }
 

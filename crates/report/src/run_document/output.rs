@@ -7,37 +7,30 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, PAIRS, SCATTER
 use super::shared::{complement, definitions, failed_runs, grouped_warnings};
 use super::tables::FACTORS;
 use super::{lead, tables, values};
-use crate::document::{Part, Table, csv};
+use crate::document::{Part, Section, Table, csv};
 use crate::format::{among_with_unit, count, grouped, minus, name, percent, share_of_runs, significant, two_digits};
 use crate::given::{agreement, measures_table};
 use crate::leading::{WIDE, by_total, indices_measured, no_indices, widest_of};
 
-/// A topic: a section if there is one output, a part of the output's section if there are several.
-pub(super) struct Topic {
-    pub id: &'static str,
-    pub title: &'static str,
-    pub parts: Vec<Part>,
-}
-
-/// Returns all topics of an output; empty ones are omitted.
-pub(super) fn topics(figures: Figures<'_>, number: usize) -> Vec<Topic> {
+/// Returns all topics of an output, which are sections if there is one output, and parts of its section if there are
+/// several; empty ones are omitted.
+pub(super) fn topics(figures: Figures<'_>, number: usize) -> Vec<Section> {
     let output = figures.output(number);
-    let topic = |id, title, parts| Topic { id, title, parts };
-    let mut topics = vec![topic("warnings", "Warnings", mind(output, figures.is_only))];
+    let mut topics = vec![Section::new("warnings", "Warnings", mind(output, figures.is_only))];
     if output.indices.is_some() {
-        topics.push(topic("indices", "Indices", indices(figures, number)));
-        topics.push(topic("shares", "Shares", shares(figures, number)));
-        topics.push(topic("noise", "The noise", noise(output)));
-        topics.push(topic("interactions", "Interactions", interactions(figures, number)));
-        topics.push(topic("measures", "Other measures", measures(output)));
-        topics.push(topic("convergence", "Convergence", convergence(figures, number)));
+        topics.push(Section::new("indices", "Indices", indices(figures, number)));
+        topics.push(Section::new("shares", "Shares", shares(figures, number)));
+        topics.push(Section::new("noise", "The noise", noise(output)));
+        topics.push(Section::new("interactions", "Interactions", interactions(figures, number)));
+        topics.push(Section::new("measures", "Other measures", measures(output)));
+        topics.push(Section::new("convergence", "Convergence", convergence(figures, number)));
     }
-    topics.push(topic("distribution", "Distribution of the output", distribution(figures, number)));
+    topics.push(Section::new("distribution", "Distribution of the output", distribution(figures, number)));
     if output.scatter.is_some() {
-        topics.push(topic("scatter", "Scatter plots", vec![figures.draw(number, SCATTER)]));
+        topics.push(Section::new("scatter", "Scatter plots", vec![figures.draw(number, SCATTER)]));
     }
-    topics.push(topic("surrogate", "Surrogate", surrogate(output)));
-    topics.push(topic("estimators", "Other estimators", estimators(output)));
+    topics.push(Section::new("surrogate", "Surrogate", surrogate(output)));
+    topics.push(Section::new("estimators", "Other estimators", estimators(output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
 }
