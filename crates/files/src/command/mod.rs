@@ -11,7 +11,6 @@ mod pick;
 mod process;
 mod program;
 mod protocol;
-mod row;
 mod template;
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};

@@ -15,7 +15,7 @@ use tempfile::TempDir;
 use super::pick::{MAX_BYTES, Source, Texts};
 use super::process::listen;
 use super::program::{Running, ended_in_words};
-use super::row::{Column, columns, table};
+use super::protocol::{Column, columns, table};
 use super::template::InputTemplate;
 use super::{CommandModel, not_a_value};
 

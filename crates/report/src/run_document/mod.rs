@@ -1,13 +1,11 @@
 //! The document of one run: the result, its precision, and its method.
 
 mod figures;
-mod lead;
 mod output;
 mod overview;
 mod series;
 mod shared;
 mod tables;
-mod values;
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
@@ -64,7 +62,7 @@ pub fn run_document(result: &StudyResult) -> Document {
         name: study.name.clone(),
         kicker: "Result of a study".to_owned(),
         title: study.headline().to_owned(),
-        lead: lead::lead(result, single),
+        lead: overview::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
         files: vec![DataFile::new(format!("{}.json", study.name), result.json())],

@@ -3,14 +3,15 @@
 use apportion::given::Measure;
 use apportion::result::{IndexRecord, NoiseRecord, OutputResult, RunMeasures, StudyResult, SurrogateTrial};
 
-use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, PAIRS, SCATTER, SHARES};
+use super::figures::Figures;
 use super::shared::{complement, definitions, failed_runs, grouped_warnings};
 use super::tables::FACTORS;
-use super::{lead, tables, values};
+use super::{overview, tables};
 use crate::document::{Part, Section, Table, csv};
 use crate::format::{among_with_unit, count, grouped, minus, name, percent, share_of_runs, significant, two_digits};
 use crate::given::{agreement, measures_table};
 use crate::leading::{WIDE, by_total, indices_measured, no_indices, widest_of};
+use crate::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart, shapley_chart};
 
 /// Returns all topics of an output, which are sections if there is one output, and parts of its section if there are
 /// several; empty ones are omitted.
@@ -27,7 +28,7 @@ pub(super) fn topics(figures: Figures<'_>, number: usize) -> Vec<Section> {
     }
     topics.push(Section::new("distribution", "Distribution of the output", distribution(figures, number)));
     if output.scatter.is_some() {
-        topics.push(Section::new("scatter", "Scatter plots", vec![figures.draw(number, SCATTER)]));
+        topics.push(Section::new("scatter", "Scatter plots", vec![figures.draw(number, "scatter", scatter_chart, "")]));
     }
     topics.push(Section::new("surrogate", "Surrogate", surrogate(output)));
     topics.push(Section::new("estimators", "Other estimators", estimators(output)));
@@ -87,7 +88,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
             low.name
         ));
     }
-    [vec![Part::Text(text)], values::surrogate(output, record)].concat()
+    [vec![Part::Text(text)], tables::surrogate(output, record)].concat()
 }
 
 fn shares(figures: Figures<'_>, number: usize) -> Vec<Part> {
@@ -105,12 +106,12 @@ fn shares(figures: Figures<'_>, number: usize) -> Vec<Part> {
         false => return Vec::new(),
     };
     let text = (number == 1).then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
-    text.into_iter().chain([figures.draw(number, SHARES)]).collect()
+    text.into_iter().chain([figures.draw(number, "shares", shapley_chart, ".csv")]).collect()
 }
 
 fn indices(figures: Figures<'_>, number: usize) -> Vec<Part> {
     let result = figures.result;
-    let mut parts = vec![figures.draw(number, INDICES)];
+    let mut parts = vec![figures.draw(number, "indices", indices_chart, ".csv")];
     if number == 1 {
         parts.extend(definitions(result));
     }
@@ -125,12 +126,12 @@ fn indices(figures: Figures<'_>, number: usize) -> Vec<Part> {
 
 fn interactions(figures: Figures<'_>, number: usize) -> Vec<Part> {
     let output = figures.output(number);
-    let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
+    let Some(text) = overview::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
         return Vec::new();
     };
     let mut parts = vec![Part::Text(text)];
     if let Some(table) = tables::pairs(output) {
-        parts.extend([figures.draw(number, PAIRS), table.into()]);
+        parts.extend([figures.draw(number, "pairs", pairs_chart, "-second-order.csv"), table.into()]);
     }
     parts
 }
@@ -143,14 +144,18 @@ fn convergence(figures: Figures<'_>, number: usize) -> Vec<Part> {
         let which = indices_measured(std::slice::from_ref(figures.output(number)));
         Part::Text(format!("At the end {which} is known to ± {} or better.", two_digits(width)))
     });
-    width.into_iter().chain([figures.draw(number, CONVERGENCE)]).collect()
+    width.into_iter().chain([figures.draw(number, "convergence", convergence_chart, "-convergence.csv")]).collect()
 }
 
 fn distribution(figures: Figures<'_>, number: usize) -> Vec<Part> {
-    let Some(table) = values::moments(figures.output(number)) else {
+    let Some(table) = tables::moments(figures.output(number)) else {
         return vec![Part::Text(format!("There are no values of {} to show.", name(&figures.output(number).name)))];
     };
-    vec![Part::Text(range(figures.output(number))), figures.draw(number, DISTRIBUTION), Part::OnPage(vec![table])]
+    vec![
+        Part::Text(range(figures.output(number))),
+        figures.draw(number, "distribution", distribution_chart, ""),
+        Part::OnPage(vec![table]),
+    ]
 }
 
 /// Describes mean, standard deviation, and the range of most values.
@@ -158,8 +163,8 @@ fn range(output: &OutputResult) -> String {
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
     let spread = sample.map_or(0.0, |sample| sample.spread());
     let value = |x: f64| among_with_unit(x, spread, &output.unit);
-    let mut said = vec![format!("Mean {}", values::mean(output).unwrap_or_else(|| "unknown".to_owned()))];
-    said.extend(values::sd(output).map(|sd| format!("standard deviation {sd}")));
+    let mut said = vec![format!("Mean {}", tables::mean(output).unwrap_or_else(|| "unknown".to_owned()))];
+    said.extend(tables::sd(output).map(|sd| format!("standard deviation {sd}")));
     if let Some((sample, median)) = sample.and_then(|sample| Some((sample, sample.quantile(50.0)?))) {
         let (whose, (low, high)) = match sample.central() {
             Some(ends) => ("95 % of the values".to_owned(), ends),
