@@ -1,8 +1,8 @@
 //! A worker that keeps one process alive and sends it rows, several ahead of the replies.
 //!
 //! A row is pending or answered: its reply contains its number, so replies may come in any order. If a process ends
-//! while rows are pending, one of them may be the cause. They are retried one at a time ([`Rows::suspects`](session::Rows::suspects)), and a row
-//! has failed once a process that was started for it alone has ended.
+//! while rows are pending, one of them may be the cause. They are suspects, retried one at a time, and a row has failed
+//! once a process that was started for it alone has ended.
 
 mod session;
 

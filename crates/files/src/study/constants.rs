@@ -9,10 +9,10 @@ use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene
 use toml::Value;
 
 use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};
+use super::distribution::{in_words_of_units, with_unit, wrong_unit};
 use super::error::Problem;
 use super::schema::afm_choices;
 use super::sections::{At, Choices};
-use super::units::{in_words_of_units, with_unit, wrong_unit};
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` says which names must not be
 /// fixed.

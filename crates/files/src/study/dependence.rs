@@ -7,8 +7,8 @@ use apportion::space::{CorrelationMeasure, Dependence, Space};
 
 use super::analysis::place;
 use super::context::{Context, Fault, choice, unknown_name, wrong};
+use super::context::{Reach, resolve};
 use super::error::Problem;
-use super::paths::{Reach, resolve};
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::exchange::{ColumnKind, ReadOptions, number, table_of_bytes};
 

@@ -15,15 +15,12 @@ mod fidelity;
 mod models;
 mod outputs;
 mod overrides;
-mod paths;
-mod read;
 mod resolve;
 mod schema;
 mod sections;
 mod subjects;
 mod synonyms;
 mod template;
-mod units;
 
 use std::path::{Path, PathBuf};
 

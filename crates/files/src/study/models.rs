@@ -11,10 +11,10 @@ use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
 use super::at::ListOrTable;
 use super::context::{Context, Fault, unknown_name};
+use super::distribution::own_inputs;
 use super::error::Problem;
 use super::sections::{At, StudyFile};
 use super::subjects::KnownSubject;
-use super::units::own_inputs;
 use super::{command, constants, expression, outputs as own};
 use crate::ModelKind;
 

@@ -15,11 +15,11 @@ use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
 use super::context::{Context, Fault, shown, wrong};
+use super::distribution::{output_unit, own_inputs};
 use super::error::Problem;
-use super::read;
+use super::resolve;
 use super::schema::names;
 use super::sections::{FactorSection, Outputs};
-use super::units::{output_unit, own_inputs};
 use crate::{CommandOutput, Match, Pick, Source, Way};
 
 /// The table of an output: its formula, the place of its number after a run, the axis of a series.
@@ -57,7 +57,7 @@ pub(super) struct OutputTable {
 impl OutputTable {
     /// Reads the table `typed`, which is the value of an output.
     pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
-        context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
+        context.at(value, typed.clone().try_into().map_err(|error| resolve::problem(&error)))
     }
 }
 

@@ -1,5 +1,6 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text, once [`read`](super::read) has
-//! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
+//! What was typed: the study file as TOML sees it, every value with its place in the text, once
+//! [`resolve`](super::resolve) has brought what can be written in several ways to one. The comments on its fields are what
+//! editors show, by the schema.
 
 use std::collections::BTreeMap;
 use std::fmt;

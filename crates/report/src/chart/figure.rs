@@ -2,11 +2,11 @@
 
 use std::fmt::Display;
 
-use super::font::FAMILIES;
 use super::model::{Bar, Chart, Mark, Panel, Shape, Stroke};
-use super::palette::Colour;
+use super::style::Colour;
 use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Attributes, Canvas, Px, Text, stripes};
+use super::text::FAMILIES;
 use super::text::{percent, wrap, wrap_within};
 
 /// Gap between a key and its name, px.

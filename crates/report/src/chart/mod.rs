@@ -9,11 +9,9 @@
 mod draw;
 mod figure;
 mod flags;
-mod font;
 mod labels;
 mod layout;
 mod model;
-mod palette;
 mod path;
 mod plot;
 #[cfg(feature = "png")]
@@ -27,10 +25,10 @@ mod text;
 pub use model::Bar;
 pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
 pub use model::{Series, Stroke};
-pub use palette::Colour;
 #[cfg(feature = "pdf")]
 pub use png::pdf;
 #[cfg(feature = "png")]
 pub use png::{PictureError, png};
 pub use scale::Spacing;
+pub use style::Colour;
 pub use style::{ChartWidth, PaperWidth};

@@ -1,7 +1,7 @@
 //! The data of a chart: panels of marks on axes, bars, and the appearance of series.
 
-use super::palette::Colour;
 use super::scale::Spacing;
+use super::style::Colour;
 use super::style::drawable;
 use super::text::{percent, power_of_ten};
 

@@ -8,7 +8,7 @@ use resvg::usvg::{self, Options, Tree, fontdb, roxmltree};
 use svg2pdf::{ConversionOptions, PageOptions, to_pdf};
 use thiserror::Error;
 
-use super::font::{BOLD, FAMILY, REGULAR};
+use super::text::{BOLD, FAMILY, REGULAR};
 
 /// Pixels per px of the SVG: sharp on dense screens and in print.
 const PNG_SCALE: f64 = 2.0;

@@ -5,10 +5,10 @@ use std::fmt::{Display, Formatter, Result, Write};
 
 use apportion::text::symbol;
 
-use super::font::{Face, Weight};
 use super::model::Stroke;
-use super::palette::{Colour, DOTS_OPACITY};
+use super::style::{Colour, DOTS_OPACITY};
 use super::style::{INK, PAPER};
+use super::text::{Face, Weight};
 use crate::format::split_word;
 
 /// Size of a subscript, and its offset downwards, relative to the size of the text.

@@ -8,9 +8,9 @@ use apportion::space::Space;
 use apportion::study::did_you_mean;
 
 use super::{At, CommandKey, CommandSection, Context, Fault, existing, reach};
+use crate::study::context::resolve;
 use crate::study::context::wrong;
 use crate::study::error::Problem;
-use crate::study::paths::resolve;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
 /// Names of files that the engine writes in the directory of a run.
