@@ -1,22 +1,20 @@
-//! The files of a document: how they are written, and their names, safe and unique for any outputs and factors.
-
-#[cfg(feature = "pdf")]
-use super::chart::pdf;
-#[cfg(feature = "png")]
-use super::chart::png;
+//! The files of a document and how they are written.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use apportion::names::{file_part, named};
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::atomic_write::{WriteError, prepare_folder, write_atomically};
 use super::chart::ChartWidth;
+#[cfg(feature = "pdf")]
+use super::chart::pdf;
+#[cfg(feature = "png")]
+use super::chart::png;
 use super::document::Document;
+use super::file_names::{CHARTS, ChartFormat};
 
 /// Why the files of a document were not written.
 #[derive(Debug, Error)]
@@ -181,46 +179,4 @@ fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std:
         #[cfg(not(all(feature = "png", feature = "pdf")))]
         other => Err(format!("this build lacks the feature `{}`", other.name()).into()),
     }
-}
-
-/// The folder of the charts, below that of the page.
-pub(super) const CHARTS: &str = "charts";
-
-named! {
-    /// A format of charts, whose name is the ending of its files.
-    pub enum ChartFormat {
-        /// Vector graphics.
-        Svg = "svg",
-        /// Pixels.
-        Png = "png",
-        /// A page of vectors and text, for papers.
-        Pdf = "pdf",
-    }
-}
-
-/// Returns the prefixes of the files of each of `names`, so that with `suffixes` appended no two files have one name,
-/// even where case is ignored: the name, with a number where it would equal another file's.
-///
-/// ```
-/// let stems = apportion_report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);
-/// assert_eq!(stems, ["s-y", "s-y-indices-2", "s-Y-3"]);
-/// assert_eq!(apportion_report::file_stems("s", &["y"], &[""]), ["s"]);
-/// ```
-pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String> {
-    if names.len() == 1 {
-        return vec![study.to_owned()];
-    }
-    let mut taken: HashSet<String> = HashSet::new();
-    let free = |(number, name): (usize, &&str)| {
-        let part = file_part(name);
-        let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
-        let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
-        let files =
-            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
-        let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
-        let stem = stem.unwrap_or_default();
-        taken.extend(files(&stem));
-        stem
-    };
-    names.iter().enumerate().map(free).collect()
 }

@@ -12,7 +12,7 @@ use apportion::model::{Batch, RowFailure, RunContext, Worker};
 use apportion::text::seconds;
 use tempfile::TempDir;
 
-use super::pick::{MAX_BYTES, Source, Texts};
+use super::pick::{MAX_BYTES, STDOUT, Source, Texts};
 use super::process::listen;
 use super::program::{Running, ended_in_words};
 use super::protocol::{Column, columns, table};
@@ -34,8 +34,7 @@ pub struct PerRun {
     pub keep: Option<PathBuf>,
 }
 
-/// Names of the files in a run's directory with the output of the program.
-pub(super) const STDOUT: &str = "stdout.txt";
+/// Name of the file in the directory of a run with the standard error of the program.
 const STDERR: &str = "stderr.txt";
 
 /// Modification time set for files that are copied for a run, if outputs are read from them: a run that has not written

@@ -8,7 +8,6 @@ use apportion::text::masked;
 use regex_lite::Regex;
 use serde_json::Value;
 
-use super::per_run::STDOUT;
 use crate::exchange::number;
 
 /// The source of a number, and how it is extracted.
@@ -132,6 +131,9 @@ impl Pick {
         Self { source: self.source.clone(), way }
     }
 }
+
+/// Name of the file in the directory of a run with the standard output of the program.
+pub(super) const STDOUT: &str = "stdout.txt";
 
 /// The texts of a run that have been read.
 pub(super) type Texts = BTreeMap<Source, Result<String, String>>;

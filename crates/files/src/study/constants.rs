@@ -11,7 +11,7 @@ use toml::Value;
 use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};
 use super::distribution::{in_words_of_units, with_unit, wrong_unit};
 use super::error::Problem;
-use super::schema::afm_choices;
+use super::key_schemas::afm_choices;
 use super::sections::{At, Choices};
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` says which names must not be

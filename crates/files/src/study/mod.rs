@@ -12,6 +12,7 @@ mod distribution;
 mod error;
 mod expression;
 mod fidelity;
+mod key_schemas;
 mod models;
 mod outputs;
 mod overrides;

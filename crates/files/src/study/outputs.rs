@@ -17,8 +17,8 @@ use super::at::{At, ListOrTable, in_order};
 use super::context::{Context, Fault, shown, wrong};
 use super::distribution::{output_unit, own_inputs};
 use super::error::Problem;
+use super::key_schemas::names;
 use super::resolve;
-use super::schema::names;
 use super::sections::{FactorSection, Outputs};
 use crate::{CommandOutput, Match, Pick, Source, Way};
 
@@ -224,6 +224,7 @@ pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Ve
 }
 
 /// Returns the outputs that the study states.
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
 pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
     let own = own_outputs(context, outputs)?;
     if let Some(place) = own.first_pick {

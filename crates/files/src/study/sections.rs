@@ -23,7 +23,7 @@ use serde_json::json;
 use super::at::ListOrTable;
 pub(super) use super::at::{At, Choices};
 use super::command::CommandKey;
-use super::schema::{self, names};
+use super::key_schemas::{self, names};
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -35,20 +35,20 @@ pub(super) struct StudyFile {
     /// Title of the report.
     pub title: Option<At<String>>,
     /// The model; `apportion models` lists all of them.
-    #[schemars(extend("enum" = schema::models(), "default" = "afm"))]
+    #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
     /// Outputs: a list of names, by default the model's first. For formulas, a table: outputs.y = "x1 + x2". For programs
     /// and external models, also a table of units: outputs.y = "nN".
     #[serde(default)]
-    #[schemars(schema_with = "schema::outputs")]
+    #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Outputs>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
     #[serde(default)]
-    #[schemars(schema_with = "schema::afm")]
+    #[schemars(schema_with = "key_schemas::afm")]
     pub afm: Option<At<Choices>>,
     /// Parameters of a function with known indices.
     #[serde(default)]
-    #[schemars(schema_with = "schema::function")]
+    #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
     /// Constants of formulas.
     #[serde(default)]
@@ -58,7 +58,7 @@ pub(super) struct StudyFile {
     pub command: Option<At<CommandKey>>,
     /// The noise of a stochastic model: the name of the seed that it gets with every row, or a table.
     #[serde(default)]
-    #[schemars(schema_with = "schema::name_or_table::<NoiseSection>")]
+    #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
     pub noise: Option<At<NoiseSection>>,
     /// Required accuracy: the half width that the 95 % interval of every first-order and total index must
     /// reach. The run then chooses its design, surrogates and cheaper models.
@@ -94,7 +94,7 @@ pub(super) type Outputs = ListOrTable<Choices>;
 pub(super) struct ExpressionSection {
     /// Numbers, or quantities with units, that formulas may use.
     #[serde(default)]
-    #[schemars(schema_with = "schema::expression_constants")]
+    #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
 }
 
@@ -104,7 +104,7 @@ pub(super) struct ExpressionSection {
 pub(super) struct FidelitySection {
     /// The cheaper models: names of those that come with the model, as in "closed-form"; or tables of the keys that replace
     /// those of the model, as in { name = "coarse", command = ["./coarse"] }.
-    #[schemars(schema_with = "schema::lows")]
+    #[schemars(schema_with = "key_schemas::lows")]
     pub low: At<Vec<At<toml::Value>>>,
     /// Base samples of their additional points; 16384 by default; with `accuracy` the run chooses.
     #[schemars(range(min = 1))]
@@ -236,7 +236,7 @@ pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
     /// Its distribution.
-    #[schemars(extend("enum" = schema::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
     #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".

@@ -5,8 +5,8 @@ use askama::Template;
 use super::symbols::href;
 use super::symbols::{clean, escaped, symbols};
 use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
-use crate::artefacts::{CHARTS, ChartFormat};
 use crate::chart::ChartWidth;
+use crate::file_names::{CHARTS, ChartFormat};
 use crate::format::minus;
 
 /// Values that the templates insert unescaped (`safe`) were escaped by [`symbols`], or come from this program: style,

@@ -1,6 +1,7 @@
 //! The document of one run: the result, its precision, and its method.
 
 mod figures;
+mod lead;
 mod output;
 mod overview;
 mod series;
@@ -62,7 +63,7 @@ pub fn run_document(result: &StudyResult) -> Document {
         name: study.name.clone(),
         kicker: "Result of a study".to_owned(),
         title: study.headline().to_owned(),
-        lead: overview::lead(result, single),
+        lead: lead::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
         files: vec![DataFile::new(format!("{}.json", study.name), result.json())],

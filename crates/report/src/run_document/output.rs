@@ -5,10 +5,12 @@ use apportion::result::{IndexRecord, NoiseRecord, OutputResult, RunMeasures, Stu
 
 use super::figures::Figures;
 use super::shared::{complement, definitions, failed_runs, grouped_warnings};
+use super::tables;
 use super::tables::FACTORS;
-use super::{overview, tables};
 use crate::document::{Part, Section, Table, csv};
-use crate::format::{among_with_unit, count, grouped, minus, name, percent, share_of_runs, significant, two_digits};
+use crate::format::{
+    among_with_unit, count, grouped, index, is_above_zero, minus, name, percent, share_of_runs, significant, two_digits,
+};
 use crate::given::{agreement, measures_table};
 use crate::leading::{WIDE, by_total, indices_measured, no_indices, widest_of};
 use crate::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart, shapley_chart};
@@ -124,9 +126,20 @@ fn indices(figures: Figures<'_>, number: usize) -> Vec<Part> {
     parts
 }
 
+/// States the sum of the first-order indices, and the least share of the variance that is interaction.
+fn sum_of_indices(output: &OutputResult) -> Option<String> {
+    let sum = output.sum_first_order?;
+    let rest = complement(sum);
+    let interaction = match is_above_zero(rest) {
+        true => format!(", so {} of the variance is interaction", percent(rest)),
+        false => String::new(),
+    };
+    Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
+}
+
 fn interactions(figures: Figures<'_>, number: usize) -> Vec<Part> {
     let output = figures.output(number);
-    let Some(text) = overview::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
+    let Some(text) = sum_of_indices(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
         return Vec::new();
     };
     let mut parts = vec![Part::Text(text)];

@@ -1,19 +1,14 @@
-//! The summary: which factor matters most, with which certainty; and the document on many outputs: an overview, and a table
-//! of every output.
+//! The document on many outputs: an overview, and a table of every output.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
 use apportion::text::listed;
 
 use super::figures::Figures;
-use super::shared::{complement, definitions, failed_runs, grouped_warnings};
+use super::shared::{definitions, failed_runs, grouped_warnings};
 use super::tables::{FACTORS, IN_CSV};
 use crate::document::{Part, Section, Table, largest};
-use crate::format::{grouped, index, is_above_zero, name, or_dash, percent, short, two_digits, value};
-use crate::leading::{
-    self, Contender, WIDE, by_total, first_answers, indices_measured, leader_of, leader_of_all, leaders, of_which,
-    widest_interval,
-};
+use crate::format::{name, or_dash, short, value};
+use crate::leading::{Contender, by_total, leader_of_all, leaders, of_which};
 use crate::run_charts::{map_chart, overall_order, together, together_chart};
 
 /// Maximum numbers of factors and of outputs in the table of outputs.
@@ -145,58 +140,4 @@ pub(super) fn answers(result: &StudyResult) -> Vec<String> {
     }];
     answers.extend(leader_of_all(together(result), "For all outputs together"));
     answers
-}
-
-/// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
-pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
-    let series = result.series.iter().map(|series| super::series::answer(result, series));
-    let mut lead = first_answers(series.collect());
-    lead.extend(match single.outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => first_answers(single.outputs.iter().map(answer).collect()),
-        _ => answers(single),
-    });
-    lead.into_iter().chain([settled(result)]).collect()
-}
-
-/// Says which factor matters most for an output, and how much is noise, or which factors follow.
-pub(super) fn answer(output: &OutputResult) -> String {
-    let order = by_total(output).unwrap_or_default();
-    let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
-    let leaders = leading::leaders(&contenders).len();
-    let next = order.iter().skip(leaders).take(2);
-    let next: Vec<String> =
-        next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();
-    let verb = if next.len() == 1 { "comes" } else { "come" };
-    let next = (!next.is_empty()).then(|| format!("Next {verb} {}.", listed(&next)));
-    let sentences = [Some(leader_of(output)), super::output::sentence(output).or(next)];
-    sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
-}
-
-/// States the sum of the first-order indices, and the least share of the variance that is interaction.
-pub(super) fn interactions(output: &OutputResult) -> Option<String> {
-    let sum = output.sum_first_order?;
-    let rest = complement(sum);
-    let interaction = match is_above_zero(rest) {
-        true => format!(", so {} of the variance is interaction", percent(rest)),
-        false => String::new(),
-    };
-    Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
-}
-
-/// States the precision of the indices, and the number of runs.
-fn settled(result: &StudyResult) -> String {
-    let runs = grouped(result.provenance.model_runs);
-    let target = match result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
-        Some(true) => "; the target is met",
-        Some(false) => "; the target is not met",
-        None => "",
-    };
-    match widest_interval(result) {
-        None => format!("The study took {runs} model runs; the error of the indices is unknown{target}."),
-        Some(widest) if widest < WIDE => {
-            let which = indices_measured(&result.outputs);
-            format!("After {runs} model runs {which} is known to ± {} or better{target}.", two_digits(widest))
-        }
-        Some(_) => format!("After {runs} model runs the intervals are too wide to determine the indices{target}."),
-    }
 }
