@@ -33,12 +33,7 @@ unit = "nm"
 /// The first step: the points, and beside them a manifest that says whose they are.
 fn sampled(points: &Path) -> Result<(), Box<dyn Error>> {
     let study = apportion_files::parse_study(STUDY, Path::new("spring.toml"), &[])?;
-    let mut manifest = None;
-    stream_atomically(points, |out| {
-        manifest = Some(sample(&study, Path::new("spring.toml"), Format::Csv, out)?);
-        Ok(())
-    })?;
-    let manifest = manifest.ok_or("no manifest")?;
+    let manifest = stream_atomically(points, |out| sample(&study, Path::new("spring.toml"), Format::Csv, out))?;
     Ok(write_atomically(&Manifest::path_for(points), manifest.json().as_bytes())?)
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use apportion::result::{StudyResult, read_result};
-use apportion_files::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
+use apportion_files::exchange::{ColumnKind, Format, ReadOptions, RowWriter, open_table};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
 use crate::messages::{Messages, messages};
@@ -100,7 +100,8 @@ fn columns(path: &Path) -> Vec<Vec<f64>> {
 fn write_columns(path: &Path, names: &[&str], columns: &[Vec<f64>]) {
     let mut bytes = Vec::new();
     let kinds = names.iter().map(|name| ColumnKind::numbers(name)).collect();
-    let mut writer = row_writer(Format::from_path(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
+    let mut writer =
+        RowWriter::new(Format::from_path(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
     writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
     writer.finish().unwrap();
     std::fs::write(path, bytes).unwrap();

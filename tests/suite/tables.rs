@@ -2,7 +2,7 @@
 
 use apportion::given::Column;
 use apportion_files::exchange::{
-    ColumnKind, DroppedRows, Format, Missing, ReadOptions, Selection, Table, TableError, read_table, row_writer,
+    ColumnKind, DroppedRows, Format, Missing, ReadOptions, RowWriter, Selection, Table, TableError, read_table,
     table_of_bytes,
 };
 use apportion_report::given::GivenFile;
@@ -73,7 +73,7 @@ fn tables_of_every_format_give_the_same_indices() {
     let kinds = ["x1", "x2", "x3", "y"].map(ColumnKind::numbers).to_vec();
     for format in Format::ALL {
         let mut bytes = Vec::new();
-        let mut writer = row_writer(format, &mut bytes, kinds.clone(), 200).unwrap();
+        let mut writer = RowWriter::new(format, &mut bytes, kinds.clone(), 200).unwrap();
         writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
         writer.finish().unwrap();
         folder.with(&format!("t.{}", format.name()), bytes);

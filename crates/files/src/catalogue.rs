@@ -17,9 +17,6 @@ pub struct ModelKind {
     pub main_inputs: &'static [&'static str],
     /// The function, if it is one with known indices.
     pub known: Option<&'static KnownAnswer>,
-    inputs: fn(Option<&'static KnownAnswer>) -> Vec<Input>,
-    outputs: fn() -> Vec<Output>,
-    choices: fn() -> Vec<Choice>,
 }
 
 impl ModelKind {
@@ -30,9 +27,6 @@ impl ModelKind {
         table: "afm",
         main_inputs: &["length", "width", "thickness"],
         known: None,
-        inputs: |_| afm_inputs(),
-        outputs: afm_outputs,
-        choices: afm_choices,
     };
     /// Formulas of the study's own factors.
     pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, with your own factors");
@@ -47,16 +41,7 @@ impl ModelKind {
     pub const DEFAULT: Self = Self::AFM;
 
     const fn users_own(name: &'static str, description: &'static str) -> Self {
-        Self {
-            name,
-            description,
-            table: name,
-            main_inputs: &[],
-            known: None,
-            inputs: |_| Vec::new(),
-            outputs: Vec::new,
-            choices: Vec::new,
-        }
+        Self { name, description, table: name, main_inputs: &[], known: None }
     }
 
     /// Returns a function with known indices.
@@ -67,9 +52,6 @@ impl ModelKind {
             table: "function",
             main_inputs: &[],
             known: Some(answer),
-            inputs: |answer| answer.map_or_else(Vec::new, |answer| known_inputs(&answer.default_function())),
-            outputs: || vec![known_output()],
-            choices: Vec::new,
         }
     }
 
@@ -94,17 +76,25 @@ impl ModelKind {
     /// Returns the inputs, the main ones first; of a function, those it has with its default parameters; none of a
     /// model whose inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
-        (self.inputs)(self.known)
+        match self.known {
+            Some(answer) => known_inputs(&answer.default_function()),
+            None if self == Self::AFM => afm_inputs(),
+            None => Vec::new(),
+        }
     }
 
     /// Returns the outputs, the default one first; none of a model whose outputs a study names.
     pub fn outputs(self) -> Vec<Output> {
-        (self.outputs)()
+        match self.known {
+            Some(_) => vec![known_output()],
+            None if self == Self::AFM => afm_outputs(),
+            None => Vec::new(),
+        }
     }
 
     /// Returns the choices of its table.
     pub fn choices(self) -> Vec<Choice> {
-        (self.choices)()
+        if self == Self::AFM { afm_choices() } else { Vec::new() }
     }
 }
 

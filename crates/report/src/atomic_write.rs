@@ -28,14 +28,14 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     stream_atomically(path, |file| file.write_all(bytes))
 }
 
-/// Like [`write_atomically`], for content that `write` produces piece by piece.
+/// Like [`write_atomically`], for content that `write` produces piece by piece; returns what `write` returns.
 ///
 /// # Errors
 /// [`WriteError`]; the target is unchanged.
-pub fn stream_atomically(
+pub fn stream_atomically<T>(
     path: &Path,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> std::io::Result<()>,
-) -> Result<(), WriteError> {
+    write: impl FnOnce(&mut (dyn Write + Send)) -> std::io::Result<T>,
+) -> Result<T, WriteError> {
     let attempt = || {
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let existing = std::fs::metadata(&target).ok();
@@ -43,13 +43,13 @@ pub fn stream_atomically(
             return write(&mut std::fs::OpenOptions::new().write(true).open(&target)?);
         }
         let mut file = temporary_in(folder_of(&target))?;
-        write(file.as_file_mut())?;
+        let answer = write(file.as_file_mut())?;
         if let Some(metadata) = existing {
             file.as_file().set_permissions(metadata.permissions())?;
         }
         file.as_file().sync_all()?;
         file.persist(&target).map_err(|error| error.error)?;
-        Ok(())
+        Ok(answer)
     };
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
 }

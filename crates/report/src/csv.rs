@@ -3,25 +3,9 @@
 use apportion::text::inert;
 use apportion::uncertainty::Estimate;
 
-/// A value of a file.
+/// The cells of a value in a file: one, or three of an estimate and the bounds of its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Value {
-    /// The text that is printed.
-    #[default]
-    Printed,
-    /// These cells: one, or three of an estimate and the bounds of its interval.
-    Cells(Vec<String>),
-}
-
-impl Value {
-    /// Returns the cells of its columns, where `printed` is the printed text.
-    pub(super) fn cells(&self, printed: &str) -> Vec<String> {
-        match self {
-            Self::Printed => vec![inert(printed.to_owned())],
-            Self::Cells(cells) => cells.clone(),
-        }
-    }
-}
+pub struct Value(pub(super) Vec<String>);
 
 /// Formats lines of CSV.
 pub(super) fn lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
@@ -45,7 +29,7 @@ macro_rules! values {
     ($($type:ty => $cells:expr;)+) => {
         $(impl From<$type> for Value {
             fn from(of: $type) -> Self {
-                Self::Cells($cells(of))
+                Self($cells(of))
             }
         })+
     };

@@ -1,10 +1,12 @@
-//! The sections that the documents of runs, screenings and sweeps share: validity of the model, and the study.
+//! The sections and sentences that the documents of runs, screenings and sweeps share: validity of the model, and the
+//! study.
 
-use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
+use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, StudyResult, ValidityRecord};
+use apportion::text::listed;
 use serde_json::{Map, Value};
 
 use super::document::{Cell, Mark, Part, Section, Table};
-use super::format::{grouped, name, share_of_runs, significant, unit, value};
+use super::format::{count, grouped, name, share_of_runs, significant, unit, value};
 
 /// Maximum number of factors in the table of the study.
 const MAX_FACTORS: usize = 50;
@@ -131,4 +133,36 @@ fn plain(json: &Value) -> String {
             pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
         }
     }
+}
+
+/// Says on how many runs which validity flags are raised; `None` if none is.
+pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
+    let mut raised: Vec<&ValidityRecord> = validity.iter().filter(|flag| flag.runs > 0).collect();
+    raised.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let flags = raised.iter().map(|flag| format!("{} on {}", flag.flag.replace('-', " "), share_of_runs(flag.share)));
+    let flags: Vec<String> = flags.collect();
+    (!flags.is_empty()).then(|| format!("The model leaves its range of validity: {} of the runs.", listed(&flags)))
+}
+
+/// Sets off what is said of a run: flags with the meaning of the most frequent one, and failures.
+pub(super) fn callout(result: &StudyResult) -> Option<Part> {
+    let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
+    let of_failures = of_failures(failed, result.provenance.model_runs);
+    let flags = sentence(&result.validity).map(|sentence| {
+        let most = result.validity.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        format!("{sentence} {}", most.map_or("", |flag| &flag.description))
+    });
+    let texts: Vec<String> = flags.into_iter().chain(of_failures).collect();
+    (!texts.is_empty()).then(|| Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts })
+}
+
+/// Says how many runs failed and what that means; `None` if none or all failed.
+pub(super) fn of_failures(failed: u64, all: u64) -> Option<String> {
+    (failed > 0 && failed < all).then(|| {
+        let (failed, share) = (grouped(failed), share_of_runs(failed as f64 / all as f64));
+        let all = count(all, "run", "runs");
+        format!(
+            "{failed} of {all} ({share}) failed: the numbers describe the part of the factor space where runs succeed."
+        )
+    })
 }

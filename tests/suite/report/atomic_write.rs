@@ -7,7 +7,7 @@ fn a_failed_write_leaves_the_old_file_and_no_temporary_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("result.json");
     write_atomically(&path, b"old").unwrap();
-    let error = stream_atomically(&path, |file| {
+    let error = stream_atomically::<()>(&path, |file| {
         file.write_all(b"half of the ne")?;
         Err(std::io::Error::other("disk full"))
     });

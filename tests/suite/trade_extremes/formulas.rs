@@ -124,7 +124,7 @@ fn functions_that_have_no_more_digits_say_so() {
 fn what_320_bits_do_not_reach_is_flagged() {
     let formulas = [("power", "y^x*y^(-x) - 1"), ("angle", "tan(x/3)"), ("log", "2^log2(y)")];
     let study = study(&source(&formulas, &[("x", 1.0, 2.0), ("y", 0.0, 2.0)]));
-    let map = map_of(&study, ExtremesSettings { points: 30, seed: 0 });
+    let map = map_of(&study, 30, 0);
     assert_nothing_is_silently_wrong("out of reach", &map);
     assert!(map.counts.right > 50 && map.counts.flagged > 0, "{:?}", map.counts);
 }

@@ -9,7 +9,7 @@ use apportion::analysis::inputs_in_words;
 use apportion::result::{OutputResult, StudyResult, read_result};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
-use apportion_files::exchange::{Format, save_outputs};
+use apportion_files::exchange::{Format, write_rows};
 use apportion_report::{Artefacts, prepare_file, run_document, stream_atomically};
 
 use super::live::LiveArguments;
@@ -148,10 +148,10 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 /// Writes points and outputs of all runs, which may be more than the study began with.
 fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> anyhow::Result<()> {
     let settings = study.design().settings();
-    let points = result.provenance.base_samples / settings.replicates;
-    let design = study.design().with_points(points)?;
-    stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
-    say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
+    let design = study.design().with_points(result.provenance.base_samples / settings.replicates)?;
+    let rows = design.rows();
+    stream_atomically(path, |out| write_rows(study, &design, Some(store), rows, format, &mut Stoppable::new(out)))?;
+    say(&format!("wrote the points and outputs of {rows} runs to {}", path.display()));
     Ok(())
 }
 

@@ -60,18 +60,13 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {
         let design = random_design(&study, rows)?;
-        stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;
+        stream_atomically(&path, |out| write_rows(&study, &design, None, rows, format, &mut Stoppable::new(out)))?;
         say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
         return Ok(());
     }
-    let mut manifest = None;
-    stream_atomically(&path, |out| {
-        manifest = Some(write_sample(&study, &arguments.study.study, format, &mut Stoppable::new(out))?);
-        Ok(())
-    })?;
-    if let Some(manifest) = &manifest {
-        write_atomically(&beside, manifest.json().as_bytes())?;
-    }
+    let file = &arguments.study.study;
+    let manifest = stream_atomically(&path, |out| write_sample(&study, file, format, &mut Stoppable::new(out)))?;
+    write_atomically(&beside, manifest.json().as_bytes())?;
     let rows = study.design().rows();
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));

@@ -1,10 +1,8 @@
 //! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
 use apportion::model::item_of_list;
-use apportion::text::masked;
+use apportion::text::{masked, shortened};
 use serde_json::Value;
-
-use super::answer::{Answer, failed};
 
 /// The content of an object under one key: a single output, or a list of several.
 struct Key<'a> {
@@ -107,4 +105,13 @@ fn without_nan(text: &str) -> String {
         rest = &rest[length..];
     }
     out
+}
+
+/// The reply of a program to a row: a value for every output, NaN for a missing one; or why there are none.
+pub(super) type Answer = Result<Vec<f64>, String>;
+
+/// Returns the reply of a program that says why a row has no values.
+pub(super) fn failed(reason: &str) -> Answer {
+    let reason = shortened(reason);
+    Err(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }

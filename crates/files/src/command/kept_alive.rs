@@ -1,10 +1,9 @@
 //! A worker that keeps one process alive and sends it rows, several ahead of the replies.
 //!
 //! A row is pending or answered: its reply contains its number, so replies may come in any order. If a process ends
-//! while rows are pending, one of them may be the cause. They are retried one at a time ([`Rows::suspects`]), and a row
-//! has failed once a process that was started for it alone has ended.
+//! while rows are pending, one of them may be the cause. They are suspects, retried one at a time, and a row has failed
+//! once a process that was started for it alone has ended.
 
-mod rows;
 mod session;
 
 use std::sync::atomic::Ordering;
@@ -12,13 +11,12 @@ use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 use apportion::text::seconds;
-use rows::Rows;
-use session::{LONGEST, Lookup, Session};
+use session::{LONGEST, Lookup, Rows, Session};
 
-use super::process::{Ending, Event, Process};
+use super::process::{Event, Process};
 use super::program::ended_in_words;
+use super::protocol::RowWriter;
 use super::protocol::{is_answer_without_number, parse_answer};
-use super::row::RowWriter;
 use super::{CommandModel, Protocol, State};
 
 /// Number of bytes of rows that are written at once.
@@ -40,11 +38,10 @@ pub(super) struct KeptAliveWorker<'a> {
     session: Option<Session>,
 }
 
-/// Why a process, or every process, gives no more replies.
+/// Why a process is ended.
 enum Fault {
-    Closed(Ending),
-    Silent,
-    LongLine,
+    /// For this reason; its pending rows may be retried.
+    Process(String),
     GiveUp(GiveUp),
 }
 
@@ -73,7 +70,7 @@ impl<'a> KeptAliveWorker<'a> {
             match self.step(&mut session, rows) {
                 Ok(()) => self.session = Some(session),
                 Err(Fault::GiveUp(give_up)) => return Err(give_up),
-                Err(fault) => self.end(session, fault, rows)?,
+                Err(Fault::Process(reason)) => self.end(session, &reason, rows)?,
             }
         }
         Ok(())
@@ -110,12 +107,17 @@ impl<'a> KeptAliveWorker<'a> {
                     self.hear(session, &line, rows)?;
                 }
                 if session.unfinished() > LONGEST {
-                    return Err(Fault::LongLine);
+                    return Err(too_long(session));
                 }
             }
             Some(Event::Sent) => session.credit += 1,
-            Some(Event::Closed) => return Err(Fault::Closed(session.process.end(true))),
-            None if left == Some(Duration::ZERO) => return Err(Fault::Silent),
+            Some(Event::Closed) => return Err(Fault::Process(closed(session))),
+            None if left == Some(Duration::ZERO) => {
+                session.process.end(false);
+                let timeout = self.model.settings.timeout.map_or_else(String::new, seconds);
+                let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
+                return Err(Fault::Process(format!("no answer within {timeout}{hint}")));
+            }
             None => self.wait(session),
         }
         Ok(())
@@ -165,7 +167,7 @@ impl<'a> KeptAliveWorker<'a> {
             &format!("warning: the program printed a line that is not an answer and is ignored: {words}"),
         );
         session.note_stray(words, line.len());
-        if session.strayed > LONGEST { Err(Fault::LongLine) } else { Ok(()) }
+        if session.strayed > LONGEST { Err(too_long(session)) } else { Ok(()) }
     }
 
     /// Handles a timeout without events.
@@ -192,51 +194,44 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Ends the process, and decides what happens to its pending rows.
-    fn end(&self, mut session: Session, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
-        let reason = self.reason(fault, &mut session);
+    fn end(&self, session: Session, reason: &str, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
         let is_own = session.sent == 1;
         for row in session.asked.into_values() {
             if rows.suspect(row, is_own) > self.model.settings.retries && is_own {
-                rows.fail(row, &reason);
+                rows.fail(row, reason);
                 let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
                 self.model.state.note_failure(&format!("{reason}; {hint}"))?;
             }
         }
         Ok(())
     }
-
-    fn reason(&self, fault: Fault, session: &mut Session) -> String {
-        match fault {
-            Fault::Closed(ending) if ending.by_itself && session.is_closed && ending.is_success() => {
-                match &session.stray {
-                    Some(words) => format!("not an answer: {words}"),
-                    None => "the program gave no answer to the row".to_owned(),
-                }
-            }
-            Fault::Closed(ending) if ending.by_itself => ended_in_words(ending.status, &ending.last_words),
-            Fault::Closed(_) => "the program closed its standard output".to_owned(),
-            Fault::Silent => {
-                session.process.end(false);
-                let timeout = self.model.settings.timeout.map_or_else(String::new, seconds);
-                let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
-                format!("no answer within {timeout}{hint}")
-            }
-            Fault::LongLine => {
-                session.process.end(false);
-                "the program printed more than 1 MiB without an answer".to_owned()
-            }
-            Fault::GiveUp(give_up) => give_up.reason.to_string(),
-        }
-    }
 }
 
 impl Worker for KeptAliveWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        let mut rows = Rows::new(inputs, batch.rows(), self.model.settings.outputs.len());
+        let mut rows = Rows::new(self.model, inputs, batch);
         let outcome = self.answer(&mut rows);
-        rows.hand_over(self.model, batch);
+        rows.finish();
         if let Err(give_up) = outcome {
             batch.give_up(give_up);
         }
     }
+}
+
+/// Ends a process whose standard output is closed, and says why it is.
+fn closed(session: &mut Session) -> String {
+    let ending = session.process.end(true);
+    match &session.stray {
+        _ if !ending.by_itself => "the program closed its standard output".to_owned(),
+        _ if !session.is_closed || !ending.status.is_some_and(|status| status.success()) => {
+            ended_in_words(ending.status, &ending.last_words)
+        }
+        Some(words) => format!("not an answer: {words}"),
+        None => "the program gave no answer to the row".to_owned(),
+    }
+}
+
+fn too_long(session: &mut Session) -> Fault {
+    session.process.end(false);
+    Fault::Process("the program printed more than 1 MiB without an answer".to_owned())
 }

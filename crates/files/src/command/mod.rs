@@ -4,7 +4,6 @@
 //! No shell is involved. A program is the leader of a process group, which is ended with it; its errors are reported
 //! with a reason in the result, and never lose a row that it has answered.
 
-mod answer;
 mod json_answer;
 mod kept_alive;
 mod per_run;
@@ -12,8 +11,6 @@ mod pick;
 mod process;
 mod program;
 mod protocol;
-mod row;
-mod standard_error;
 mod template;
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};

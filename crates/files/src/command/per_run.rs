@@ -12,10 +12,10 @@ use apportion::model::{Batch, RowFailure, RunContext, Worker};
 use apportion::text::seconds;
 use tempfile::TempDir;
 
-use super::pick::{MAX_BYTES, Source, Texts};
+use super::pick::{MAX_BYTES, STDOUT, Source, Texts};
+use super::process::listen;
 use super::program::{Running, ended_in_words};
-use super::row::{Column, columns, table};
-use super::standard_error::listen;
+use super::protocol::{Column, columns, table};
 use super::template::InputTemplate;
 use super::{CommandModel, not_a_value};
 
@@ -34,8 +34,7 @@ pub struct PerRun {
     pub keep: Option<PathBuf>,
 }
 
-/// Names of the files in a run's directory with the output of the program.
-const STDOUT: &str = "stdout.txt";
+/// Name of the file in the directory of a run with the standard error of the program.
 const STDERR: &str = "stderr.txt";
 
 /// Modification time set for files that are copied for a run, if outputs are read from them: a run that has not written
@@ -166,8 +165,7 @@ impl<'a> PerRunWorker<'a> {
     fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let settings = &self.model.settings;
         let (mut missing, mut found) = (None, false);
-        let stdout = directory.join(STDOUT);
-        let mut texts = Texts::new(directory, &stdout);
+        let mut texts = Texts::new();
         for (column, place) in settings.asked.iter().enumerate() {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
@@ -175,7 +173,7 @@ impl<'a> PerRunWorker<'a> {
                 Source::File(name) if is_from_before(&directory.join(name)) => {
                     Err(format!("the run did not change `{name}`"))
                 }
-                _ => pick.number(&mut texts),
+                _ => pick.number(directory, &mut texts),
             };
             match number {
                 Ok(value) if value.is_finite() => {

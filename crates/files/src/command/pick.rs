@@ -1,5 +1,6 @@
 //! Extraction of a number from the files of a run: by a regular expression, a column of CSV, or a JSON pointer.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use apportion::files::read_whole;
@@ -19,7 +20,7 @@ pub struct Pick {
 }
 
 /// The source of a number.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Source {
     /// Its standard output.
     Stdout,
@@ -91,10 +92,10 @@ impl Source {
         }
     }
 
-    /// Returns the text of the source, where the standard output is in the file `stdout`.
-    fn text(&self, directory: &Path, stdout: &Path) -> Result<String, String> {
+    /// Returns the text of the source in the directory of a run.
+    fn text(&self, directory: &Path) -> Result<String, String> {
         let (path, file) = match self {
-            Self::Stdout => (stdout.to_owned(), "standard output".to_owned()),
+            Self::Stdout => (directory.join(STDOUT), "standard output".to_owned()),
             Self::File(name) => (directory.join(name), name.clone()),
         };
         let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
@@ -114,8 +115,9 @@ impl Source {
 
 impl Pick {
     /// Returns the number of a run; `texts` caches the texts that have been read. It may be non-finite, as written.
-    pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, String> {
-        self.way.number(texts.text(&self.source)?, &self.source.in_words())
+    pub(super) fn number(&self, directory: &Path, texts: &mut Texts) -> Result<f64, String> {
+        let text = texts.entry(self.source.clone()).or_insert_with(|| self.source.text(directory));
+        self.way.number(text.as_deref().map_err(|reason| reason.clone())?, &self.source.in_words())
     }
 
     /// Returns the pick of value number `number` of a series, from 0: the match, row or list item of that number.
@@ -130,27 +132,11 @@ impl Pick {
     }
 }
 
-/// The texts of a run, each file read once.
-pub(super) struct Texts<'a> {
-    directory: &'a Path,
-    /// The file with its standard output.
-    stdout: &'a Path,
-    read: Vec<(Source, Result<String, String>)>,
-}
+/// Name of the file in the directory of a run with the standard output of the program.
+pub(super) const STDOUT: &str = "stdout.txt";
 
-impl<'a> Texts<'a> {
-    pub(super) fn new(directory: &'a Path, stdout: &'a Path) -> Self {
-        Self { directory, stdout, read: Vec::new() }
-    }
-
-    fn text(&mut self, source: &Source) -> Result<&str, String> {
-        let place = self.read.iter().position(|(known, _)| known == source).unwrap_or_else(|| {
-            self.read.push((source.clone(), source.text(self.directory, self.stdout)));
-            self.read.len() - 1
-        });
-        self.read[place].1.as_deref().map_err(Clone::clone)
-    }
-}
+/// The texts of a run that have been read.
+pub(super) type Texts = BTreeMap<Source, Result<String, String>>;
 
 impl Way {
     /// Extracts the number from `text`, which is named `of` in errors.

@@ -1,5 +1,6 @@
 //! A program kept alive: rows to its standard input, replies from its standard output, each on a thread of its own, so
-//! that neither side blocks the other with a full pipe.
+//! that neither side blocks the other with a full pipe. Standard error is passed on as messages, with the last line kept
+//! for reasons of failure.
 
 use std::io::{self, Read, Write};
 use std::process::{ChildStdout, ExitStatus, Stdio};
@@ -9,9 +10,9 @@ use std::thread;
 use std::time::Duration;
 
 use apportion::model::Messages;
+use apportion::text::cut;
 
 use super::program::{Program, Running};
-use super::standard_error::listen;
 
 /// An event of a process.
 pub(super) enum Event {
@@ -24,7 +25,6 @@ pub(super) enum Event {
 }
 
 /// How a process ended.
-#[derive(Clone)]
 pub(super) struct Ending {
     /// Its exit status, if there is one.
     pub status: Option<ExitStatus>,
@@ -32,12 +32,6 @@ pub(super) struct Ending {
     pub by_itself: bool,
     /// The last line that it wrote to standard error.
     pub last_words: String,
-}
-
-impl Ending {
-    pub(super) fn is_success(&self) -> bool {
-        self.status.is_some_and(|status| status.success())
-    }
 }
 
 /// A process that is kept alive. When dropped, its input is closed and it has a moment to end by itself.
@@ -185,5 +179,41 @@ fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
     }
     if listened_to {
         let _ = tell.send(Event::Closed);
+    }
+}
+
+/// Maximum number of characters of a line that are passed on.
+const MAX_LETTERS: usize = 400;
+
+/// Passes on the standard error of a process until it ends, and stores its last line in `last`.
+pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<String>) {
+    const LONGEST: usize = 4096;
+    let (mut line, mut bytes) = (Vec::new(), [0; 4096]);
+    loop {
+        let count = match from.read(&mut bytes) {
+            Ok(count) => count,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+            Err(_) => 0,
+        };
+        for &byte in &bytes[..count] {
+            match byte {
+                b'\n' => take(messages, &mut line, last),
+                _ if line.len() < LONGEST => line.push(byte),
+                // The rest of a long line is dropped.
+                _ => (),
+            }
+        }
+        if count == 0 {
+            return take(messages, &mut line, last);
+        }
+    }
+}
+
+fn take(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
+    let text = String::from_utf8_lossy(line).into_owned();
+    line.clear();
+    if !text.trim().is_empty() {
+        messages.send_printed(&format!("the program: {}", cut(&text, MAX_LETTERS)));
+        text.trim().clone_into(&mut last.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }

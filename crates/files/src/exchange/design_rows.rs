@@ -1,65 +1,46 @@
-//! The rows of a design as numbers in the units of its study, block by block.
+//! A study's design as rows of numbers in the units of the study, and as a file, with the outputs of a run or without.
 
-use apportion::design::Design;
+use std::io::Write;
+use std::ops::Range;
+use std::path::Path;
+
+use apportion::design::{Design, DesignError, DesignSettings, Rows, Sampler};
 use apportion::digest::Sha256;
 use apportion::model::Output;
 use apportion::quantity::Unit;
-use apportion::run::RowValues;
+use apportion::run::{RowValues, Store};
 use apportion::space::{Factor, Space};
+use apportion::study::Study;
 
-use super::rows::ColumnKind;
+use super::manifest::Manifest;
+use super::rows::{ColumnKind, Format, RowWriter};
 
 /// Approximate number of rows of a block.
 const BLOCK: u64 = 1 << 13;
 
-/// The position of a block of rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RowBlock {
-    /// The replicate.
-    pub replicate: u64,
-    /// Number of its first row in the replicate.
-    pub first: u64,
-    /// Number of rows.
-    pub rows: usize,
-}
-
-/// The rows of a design in the order of [`Design::locate`], each factor in its own unit, with only one block of them in
-/// memory.
-pub struct DesignRows<'a> {
-    space: &'a Space,
-    design: &'a Design,
-    replicate: u64,
-    /// The next base sample of the replicate.
-    point: u64,
-    values: RowValues,
-}
-
-impl<'a> DesignRows<'a> {
-    /// Iterates over all rows of `design`, whose factors are those of `space`.
-    pub fn new(space: &'a Space, design: &'a Design) -> Self {
-        Self { space, design, replicate: 0, point: 0, values: RowValues::default() }
+/// Computes the rows of `design`, whose factors are those of `space`, in the order of [`Design::locate`], and passes
+/// them to `see` block by block: the replicate, the rows in it, and a column for each factor in its own unit. Only one
+/// block is in memory.
+pub(super) fn each_block<E>(
+    space: &Space,
+    design: &Design,
+    mut see: impl FnMut(u64, Range<u64>, &mut [Vec<f64>]) -> Result<(), E>,
+) -> Result<(), E> {
+    let (runs, points) = (design.rows_per_point(), design.points_per_replicate());
+    let step = (BLOCK / runs).max(1);
+    let (mut row_values, mut columns) = (RowValues::default(), vec![Vec::new(); design.factors()]);
+    for replicate in 0..design.settings().replicates {
+        for point in (0..points).step_by(step as usize) {
+            let rows = point * runs..(point + step).min(points) * runs;
+            let values = row_values.values(space, design, replicate, rows.clone());
+            for ((column, values), factor) in columns.iter_mut().zip(values).zip(space.factors()) {
+                column.clear();
+                column.extend(values.iter().map(|value| at_the_edge(factor.unit(), *value)));
+            }
+            see(replicate, rows, &mut columns)?;
+        }
     }
-
-    /// Computes the next block, with one vector for each factor; returns `None` after the last row.
-    pub fn next_block(&mut self, into: &mut [Vec<f64>]) -> Option<RowBlock> {
-        let design = self.design;
-        if self.point == design.points_per_replicate() {
-            (self.replicate, self.point) = (self.replicate + 1, 0);
-        }
-        if self.replicate == design.settings().replicates {
-            return None;
-        }
-        let runs = design.rows_per_point();
-        let points = (BLOCK / runs).max(1).min(design.points_per_replicate() - self.point);
-        let (replicate, first, rows) = (self.replicate, self.point * runs, points * runs);
-        let values = self.values.values(self.space, design, replicate, first..first + rows);
-        for ((column, values), factor) in into.iter_mut().zip(values).zip(self.space.factors()) {
-            column.clear();
-            column.extend(values.iter().map(|value| at_the_edge(factor.unit(), *value)));
-        }
-        self.point += points;
-        Some(RowBlock { replicate, first, rows: rows as usize })
-    }
+    Ok(())
 }
 
 /// Returns the SI value `si` in `unit`: of the neighbouring numbers the one that converts back to `si`, if any.
@@ -82,23 +63,80 @@ pub(super) fn columns(factors: &[Factor], outputs: &[Output]) -> Vec<ColumnKind>
     factors.iter().map(factor_column).chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect()
 }
 
-/// SHA-256 of the numbers of rows, row by row, each as the eight bytes of a little-endian double.
-#[derive(Default)]
-pub(super) struct RowsDigest(Sha256);
+/// Adds the rows of these columns to a digest, row by row, each number as the eight bytes of a little-endian double.
+pub(super) fn add_rows(digest: &mut Sha256, columns: &[Vec<f64>]) {
+    let rows = columns.first().map_or(0, Vec::len);
+    let mut bytes = Vec::with_capacity(rows * columns.len() * size_of::<f64>());
+    for row in 0..rows {
+        bytes.extend(columns.iter().flat_map(|column| column[row].to_le_bytes()));
+    }
+    digest.update(&bytes);
+}
 
-impl RowsDigest {
-    /// Adds the rows of these columns.
-    pub fn add(&mut self, columns: &[Vec<f64>]) {
-        let rows = columns.first().map_or(0, Vec::len);
-        let mut bytes = Vec::with_capacity(rows * columns.len() * size_of::<f64>());
-        for row in 0..rows {
-            bytes.extend(columns.iter().flat_map(|column| column[row].to_le_bytes()));
+/// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit,
+/// and returns the manifest to be written next to it. Uses constant memory.
+///
+/// # Errors
+/// Any error of the file system.
+pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
+    let digest = write_rows(study, study.design(), None, study.design().rows(), format, out)?;
+    Ok(Manifest::new(study, study_file, digest))
+}
+
+/// Returns the design whose first `rows` rows are random points of the factors of `study`, independent of each other.
+/// They are determined by the seed of the study.
+///
+/// # Errors
+/// [`DesignError`] if `rows` is 0 or more than 2^33.
+pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
+    // Only the rows A and B of a design.
+    let settings = DesignSettings {
+        sampler: Sampler::Random,
+        base_samples: rows.div_ceil(2).max(2),
+        replicates: 1,
+        seed: study.design().settings().seed,
+    };
+    let of_design = Rows { copula: study.design().asked().copula.clone(), ..Rows::default() };
+    Design::new(settings, study.design().factors(), of_design)
+}
+
+/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
+/// of their numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
+///
+/// With a store, each row is followed by its outputs in their units; a failed output is an empty cell (CSV) or NaN
+/// (NPY). Uses constant memory in addition to the store.
+///
+/// # Errors
+/// An error of the operating system, or rows that are missing in the store.
+pub fn write_rows(
+    study: &Study,
+    design: &Design,
+    store: Option<&Store>,
+    most: u64,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<String> {
+    let (space, model) = (study.space(), study.model());
+    let outputs = if store.is_some() { model.outputs() } else { &[] };
+    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), most)?;
+    let mut answers = vec![Vec::new(); outputs.len()];
+    let (mut digest, mut left) = (Sha256::default(), most);
+    each_block(space, design, |replicate, rows, points| {
+        let count = left.min(rows.end - rows.start);
+        left -= count;
+        points.iter_mut().for_each(|column| column.truncate(count as usize));
+        add_rows(&mut digest, points);
+        if let Some(store) = store {
+            let piece = store.piece(replicate, rows);
+            let piece = piece.ok_or_else(|| std::io::Error::other("outputs of the design are missing"))?;
+            for (number, (column, output)) in answers.iter_mut().zip(outputs).enumerate() {
+                let of_output = piece.values.iter().skip(number).step_by(outputs.len());
+                *column = of_output.map(|si| output.unit.from_si(*si)).collect();
+            }
         }
-        self.0.update(&bytes);
-    }
-
-    /// Returns the digest in hexadecimal.
-    pub fn finish(self) -> String {
-        self.0.finish()
-    }
+        let slices: Vec<&[f64]> = points.iter().chain(&answers).map(Vec::as_slice).collect();
+        writer.write(&slices)
+    })?;
+    writer.finish()?;
+    Ok(digest.finish())
 }

@@ -9,26 +9,22 @@ mod design_rows;
 mod error;
 mod evaluate;
 mod manifest;
-mod points;
 mod rows;
-mod sample;
-mod save;
 mod table;
 
 pub use answers::{AnswersRequest, read_answers};
+pub use design_rows::{random_design, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
 pub(crate) use rows::number;
 pub use rows::{Format, ReadOptions, RowReader, open_table};
-pub use sample::{random_design, sample, write_rows};
-pub use save::save_outputs;
 pub use table::{Missing, Selection, Table, read_table};
 // Other items that the program and the tests use.
 pub use {
     answers::{Answers, first_output, output_columns},
-    design_rows::{DesignRows, RowBlock, factor_column},
+    design_rows::factor_column,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
+    rows::{ColumnKind, RowWriter, table_of_bytes},
     table::DroppedRows,
 };

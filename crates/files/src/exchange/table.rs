@@ -71,11 +71,12 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     let (mut skipped, remedy) = (Vec::new(), TextColumn::REMEDY);
     if selection.inputs.is_empty() {
         let is_known = |place: &usize| selection.kinds.iter().any(|kind| kind.name == names[*place]);
-        let text: Vec<usize> = reader.text_columns()?.into_iter().filter(|place| !is_known(place)).collect();
-        let (of_text, of_numbers): (Vec<usize>, Vec<usize>) = inputs.iter().partition(|place| text.contains(place));
-        let column = |place: usize| TextColumn { name: names[place].clone(), example: reader.text_example(place) };
-        skipped = of_text.into_iter().map(column).collect();
-        inputs = of_numbers;
+        let mut text = reader.text_columns()?;
+        text.retain(|(place, _)| inputs.contains(place) && !is_known(place));
+        inputs.retain(|place| text.iter().all(|(of_text, _)| of_text != place));
+        let column =
+            |(place, example): (usize, String)| TextColumn { name: names[place].clone(), example: Some(example) };
+        skipped = text.into_iter().map(column).collect();
     }
     if inputs.is_empty() {
         let why: String = skipped.iter().map(|column| format!("; {}", column.reason())).collect();

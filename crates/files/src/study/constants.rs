@@ -1,18 +1,18 @@
-//! The `[afm]` table: choices by name, and constants of the scene with their units.
+//! The tables `[afm]`, with choices by name and constants of the scene with their units, and `[function]`.
 
 use std::collections::BTreeMap;
 
-use apportion::model::MAX_SERIES_VALUES;
+use apportion::model::{KnownAnswer, KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
 use apportion::names::Named;
 use apportion::quantity::{Dimension, Quantity, Unit};
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
 use toml::Value;
 
 use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};
+use super::distribution::{in_words_of_units, with_unit, wrong_unit};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
-use super::sections::At;
-use super::units::{in_words_of_units, with_unit, wrong_unit};
+use super::sections::{At, Choices};
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` says which names must not be
 /// fixed.
@@ -171,4 +171,41 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     found
         .filter(|number| *number > 0.0 && number.is_finite())
         .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value.to_string()))
+}
+
+/// Returns the function with the parameters of the table.
+pub(super) fn known(
+    context: &Context<'_>,
+    answer: &'static KnownAnswer,
+    table: Option<&At<Choices>>,
+) -> Result<KnownFunction, Fault> {
+    let Some(table) = table else { return Ok(answer.default_function()) };
+    let mut parameters = Vec::new();
+    for (key, value) in table.get_ref() {
+        let name = key.get_ref();
+        if answer.parameters.iter().all(|parameter| parameter.name != name) {
+            return Err(context.fault(key.span(), unknown_parameter(answer, name)));
+        }
+        let found = || wrong(name, "a number or a list of numbers", shown(value.get_ref()));
+        parameters.push((name.clone(), context.at(value, number_or_list(value.get_ref()).ok_or_else(found))?));
+    }
+    answer.with(&parameters).map_err(|error| {
+        let about = |key: &At<String>| *key.get_ref() == error.parameter;
+        let span = table.get_ref().iter().find(|(key, _)| about(key)).map_or(table.span(), |(_, value)| value.span());
+        context.fault(span, Problem::new(error.to_string()))
+    })
+}
+
+fn unknown_parameter(answer: &KnownAnswer, name: &str) -> Problem {
+    if answer.parameters.is_empty() {
+        return Problem::new(ParameterError::unknown(name).to_string());
+    }
+    unknown_key(name, answer.parameters.iter().map(|parameter| parameter.name))
+}
+
+fn number_or_list(value: &Value) -> Option<ParameterValue> {
+    match value {
+        Value::Array(list) => list.iter().map(number).collect::<Option<_>>().map(ParameterValue::List),
+        other => number(other).map(ParameterValue::Number),
+    }
 }

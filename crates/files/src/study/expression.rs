@@ -11,11 +11,11 @@ use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
 use super::context::{Context, Fault, number, shown};
+use super::distribution::own_inputs;
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
-use super::units::own_inputs;
 
 /// Returns the inputs of formulas: the factors of the study, each in its own unit.
 pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {

@@ -11,27 +11,17 @@ mod dependence;
 mod distribution;
 mod error;
 mod expression;
-#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
-mod external;
 mod fidelity;
-mod forms;
-mod function;
 mod key_schemas;
-mod measured;
 mod models;
-mod noise;
-mod nominal;
 mod outputs;
 mod overrides;
-mod paths;
-mod read;
 mod resolve;
 mod schema;
 mod sections;
-mod series;
 mod subjects;
+mod synonyms;
 mod template;
-mod units;
 
 use std::path::{Path, PathBuf};
 

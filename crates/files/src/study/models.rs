@@ -11,11 +11,11 @@ use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
 use super::at::ListOrTable;
 use super::context::{Context, Fault, unknown_name};
+use super::distribution::own_inputs;
 use super::error::Problem;
 use super::sections::{At, StudyFile};
 use super::subjects::KnownSubject;
-use super::units::own_inputs;
-use super::{command, constants, expression, external, function};
+use super::{command, constants, expression, outputs as own};
 use crate::ModelKind;
 
 /// A study file with a known model.
@@ -76,7 +76,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "external",
         span: |_| None,
-        inputs: |reading| external::inputs(reading.context, &reading.file.factor),
+        inputs: |reading| own::inputs(reading.context, &reading.file.factor),
         subject: outside,
         guide: Some(include_str!("../../templates/guides/external.txt")),
     },
@@ -97,7 +97,7 @@ fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjec
 
 #[cfg(not(target_family = "wasm"))]
 fn outside(Reading { context, file, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
+    Ok((Arc::new(own::subject(context, file.outputs.as_ref())?), Vec::new()))
 }
 
 /// A page starts no programs, and does not contain the code for them.
@@ -123,7 +123,7 @@ pub fn model_guide(kind: ModelKind) -> Option<String> {
 
 /// Returns the function with the parameters of its table.
 fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
-    let with_table = |answer| function::known(reading.context, answer, reading.file.function.as_ref());
+    let with_table = |answer| constants::known(reading.context, answer, reading.file.function.as_ref());
     reading.kind.known.map(with_table).transpose()
 }
 

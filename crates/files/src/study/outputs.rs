@@ -3,8 +3,10 @@
 
 use std::ops::Range;
 
-use apportion::model::{OutputSeries, SeriesAxis};
+use apportion::model::{Input, Output, OutputSeries, SeriesAxis, SeriesError};
+use apportion::names::{SHORT_TEXT, is_short_text};
 use apportion::quantity::Unit;
+use apportion::study::ExternalSubject;
 use regex_lite::Regex;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,11 +15,11 @@ use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
 use super::context::{Context, Fault, shown, wrong};
+use super::distribution::{output_unit, own_inputs};
 use super::error::Problem;
 use super::key_schemas::names;
-use super::sections::Outputs;
-use super::units::output_unit;
-use super::{read, series};
+use super::resolve;
+use super::sections::{FactorSection, Outputs};
 use crate::{CommandOutput, Match, Pick, Source, Way};
 
 /// The table of an output: its formula, the place of its number after a run, the axis of a series.
@@ -55,7 +57,7 @@ pub(super) struct OutputTable {
 impl OutputTable {
     /// Reads the table `typed`, which is the value of an output.
     pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
-        context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
+        context.at(value, typed.clone().try_into().map_err(|error| resolve::problem(&error)))
     }
 }
 
@@ -147,7 +149,7 @@ fn output(
         let expected = "only of model = \"expression\"";
         return context.refuse(value, &format!("{key}.formula"), expected, "of another model".to_owned());
     }
-    let axis = context.at(value, series::axis(&key, &table))?;
+    let axis = context.at(value, axis(&key, &table))?;
     let pick = context.at(value, pick(&key, &table))?;
     if axis.is_some() && table.which.is_some() {
         let expected = "used only for a single number: a series takes every match or row, from the first on";
@@ -207,4 +209,71 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
         _ => return refused("", "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()),
     };
     Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), way }))
+}
+
+/// Returns the inputs of the model: the factors of the study, each in its own unit.
+pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+    for section in factors {
+        let name = &section.get_ref().name;
+        if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
+            let expected = "a text without spaces around it (it is the header of a column)";
+            return context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
+        }
+    }
+    own_inputs(context, factors)
+}
+
+/// Returns the outputs that the study states.
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
+pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
+    let own = own_outputs(context, outputs)?;
+    if let Some(place) = own.first_pick {
+        let expected = "used only with a program that this program starts";
+        return Err(context.fault(
+            place,
+            wrong("regex, column, pointer, file, match", expected, "with an external model".to_owned()),
+        ));
+    }
+    let output = |output: crate::CommandOutput| Output::new(output.name, output.unit, "computed outside this program");
+    Ok(ExternalSubject { outputs: own.outputs.into_iter().map(output).collect(), series: own.series })
+}
+
+/// Returns the axis of the output `key` from its `table`; `None` if it is not a series.
+pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>, Problem> {
+    let OutputTable { length, axis, axis_unit, positions, .. } = table;
+    let texts = [("axis", axis), ("axis_unit", axis_unit)];
+    let said = texts.map(|(name, text)| (name, text.is_some()));
+    let said = [("length", length.is_some()), ("positions", positions.is_some())].into_iter().chain(said);
+    let Some((first, _)) = said.into_iter().find(|(_, said)| *said) else { return Ok(None) };
+    let is_wrong = |(_, text): &(&str, &Option<String>)| text.as_ref().is_some_and(|text| !is_short_text(text));
+    if let Some((name, Some(text))) = texts.into_iter().find(is_wrong) {
+        return Err(wrong(&format!("{key}.{name}"), SHORT_TEXT, format!("{text:?}")));
+    }
+    let (label, unit) = (axis.as_deref().unwrap_or("index"), axis_unit.as_deref().unwrap_or_default());
+    let length = length.map(|length| usize::try_from(length).unwrap_or(usize::MAX));
+    let refused = |error: SeriesError| {
+        let (name, expected, found) = match error {
+            SeriesError::Length { found } => ("length", "2 to 10000 values", found.to_string()),
+            SeriesError::Position { place, found } => {
+                ("positions", "finite numbers in rising order", format!("{found} at place {place}"))
+            }
+        };
+        wrong(&format!("{key}.{name}"), expected, found)
+    };
+    let axis = match (positions.clone(), length) {
+        (None, Some(length)) => SeriesAxis::even(label, unit, length, 0.0, 1.0),
+        (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, pair[0], pair[1]),
+        (Some(list), length) if list.len() != 2 && length.is_none_or(|length| length == list.len()) => {
+            SeriesAxis::new(label, unit, list)
+        }
+        (Some(list), Some(length)) => {
+            let expected = format!("a list of {length} numbers, or of two: the first position and the step");
+            return Err(wrong(&format!("{key}.positions"), &expected, format!("a list of {}", list.len())));
+        }
+        (_, None) => {
+            let found = format!("`{first}` without one");
+            return Err(wrong(&format!("{key}.length"), "the number of values, as in length = 365", found));
+        }
+    };
+    axis.map(Some).map_err(refused)
 }

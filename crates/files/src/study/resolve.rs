@@ -1,34 +1,42 @@
-//! Conversion of a typed study file to a study: every check of a study file, once.
+//! Conversion of the text of a study file to [`StudyFile`], with the TOML reader's errors in the words of studies, and to
+//! a study: every check of a study file, once.
+//!
+//! `[factors]` becomes a list of `[[factor]]`, and `noise` one more factor; every value keeps its position in the file.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
 use apportion::StudyBuilder;
-use apportion::design::DesignError;
+use apportion::design::{DesignError, MAX_FACTORS};
 use apportion::model::Input;
 use apportion::names::file_part;
 use apportion::quantity::Unit;
 use apportion::space::{Distribution, Factor, Space};
 use apportion::study::{BuildError, Study};
-use toml::de::DeTable;
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::context::{Context, Fault, unknown_name};
+use super::context::{self, Context, Fault, unknown_name};
+use super::distribution::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
 use super::error::Problem;
 use super::models::{ModelTable, Reading, TABLES, table_of};
+use super::schema::study_schema;
 use super::sections::{At, FactorSection, Nominal, StudyFile};
-use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{analysis, distribution, noise, nominal, read};
+use super::synonyms::meant;
+use super::{analysis, distribution};
 use crate::ModelKind;
 
 /// Returns the study of the text of `context`, and notes on keys without effect.
 pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault> {
-    let file = read::study_file(context)?;
+    let file = study_file(context)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
-    let subject = noise::repeated(context, &file, subject, &space)?;
+    let subject = analysis::repeated(context, &file, subject, &space)?;
     let stem =
         || context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()));
     let name = file.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(stem);
@@ -158,7 +166,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         }
     }
     let stated = |typed: &At<Nominal>| {
-        let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
+        let value = context.at(typed, distribution::nominal_value(&input.name, &distribution, typed.get_ref()))?;
         let found = || outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol())));
         Some(value).filter(|value| in_domain(*value) && value.is_finite()).ok_or_else(found)
     };
@@ -174,6 +182,118 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));
-    let fits = low <= nominal && nominal <= high && nominal::is_value(distribution, nominal);
+    let fits = low <= nominal && nominal <= high && distribution::is_value(distribution, nominal);
     if fits { nominal } else { distribution.central() }
+}
+
+/// Parses the text of `context`.
+pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
+    let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
+    normalise(context, root.get_mut())?;
+    let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
+    join_factors(context, &mut file)?;
+    // Before any of them is processed.
+    if let Some(first) = file.factor.get(MAX_FACTORS) {
+        let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });
+        return Err(context.fault(first.span(), problem.into()));
+    }
+    Ok(file)
+}
+
+fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    context.fault(error.span().unwrap_or(0..0), problem(error))
+}
+
+/// Converts an error of the TOML reader to the words of studies.
+pub(super) fn problem(error: &toml::de::Error) -> Problem {
+    let message = error.message();
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match &quoted[..] {
+        [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
+        _ if message.contains("unquoted key") => {
+            Problem::new(format!("{message}: put a key with other letters in quotes, as in \"größe\" = 2"))
+        }
+        _ => Problem::new(in_words(message)),
+    }
+}
+
+/// Returns the problem of a key that its table does not have: it may belong to another one.
+fn unknown_key(name: &str, expected: &[&str]) -> Problem {
+    let other = keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name));
+    match other.filter(|_| meant(name, expected.iter().copied()).is_none()) {
+        Some((place, _)) => Problem::misplaced(name, &format!("it belongs {place}")),
+        None => context::unknown_key(name, expected.iter().copied()),
+    }
+}
+
+/// Lists the tables of a study file, in words, with their keys, from the schema.
+fn keys_of_tables() -> [(&'static str, Vec<String>); 5] {
+    let schema = study_schema();
+    let keys = |table: &serde_json::Value| {
+        table["properties"].as_object().map(|keys| keys.keys().cloned().collect()).unwrap_or_default()
+    };
+    let of = |table: &str| keys(&schema["definitions"][table]);
+    [
+        ("at the top of the file, above the first table", keys(&schema)),
+        ("in the table [design]", of("DesignSection")),
+        ("in the table [analysis]", of("AnalysisSection")),
+        ("in the table of a factor", of("FactorSection")),
+        ("in the table [command]", of("CommandSection")),
+    ]
+}
+
+/// Replaces the type names in the deserialiser's message by common ones.
+fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 5] = [
+        ("expected f64", "expected a number"),
+        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
+        ("expected a map", "expected a table"),
+        ("expected a sequence", "expected a list in square brackets"),
+        ("expected a string", "expected a text in quotes"),
+    ];
+    WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
+/// Converts `root`, a study file, to the form of `StudyFile`: `noise = "seed"` is `noise.name = "seed"`.
+pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    if let Some((key, _)) = root.get_key_value("factor").filter(|(_, value)| value.get_ref().is_table()) {
+        let right = "factors are lines of the table `[factors]`, or tables `[[factor]]`";
+        return Err(context.fault(key.span(), Problem::misplaced("factor", right)));
+    }
+    if let Some(noise) = root.get_mut("noise").filter(|noise| noise.get_ref().is_str()) {
+        let key = Spanned::new(noise.span(), Cow::Borrowed("name"));
+        let name = Spanned::new(noise.span(), noise.get_ref().clone());
+        *noise.get_mut() = DeValue::Table(DeTable::from_iter([(key, name)]));
+    }
+    Ok(())
+}
+
+/// Joins the factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the
+/// order of the file; the seed of a stochastic model is the last one.
+pub(super) fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Result<(), Fault> {
+    if let Some(factor) = file.factor.iter().find(|factor| factor.get_ref().name.span().is_empty()) {
+        return Err(context.fault(factor.span(), Problem::new("missing field `name`")));
+    }
+    let mut lines: Vec<_> = std::mem::take(&mut file.factors).into_iter().collect();
+    lines.sort_by_key(|(name, _)| name.span().start);
+    if let (Some((name, _)), false) = (lines.first(), file.factor.is_empty()) {
+        let right = "factors are also listed in `[[factor]]`: keep one of the two";
+        return Err(context.fault(name.span(), Problem::misplaced("factors", right)));
+    }
+    for (name, line) in lines {
+        let span = line.span();
+        let fields = line.into_inner();
+        if !fields.name.span().is_empty() {
+            let right = "the name of this factor is the key before its table";
+            return Err(context.fault(fields.name.span(), Problem::misplaced("name", right)));
+        }
+        file.factor.push(At::new(span, FactorSection { name, ..fields }));
+    }
+    if let Some(noise) = &file.noise {
+        let at_noise = |text: &str| At::new(noise.span(), text.to_owned());
+        let name = noise.get_ref().name.clone().unwrap_or_else(|| at_noise("seed"));
+        let fields = FactorSection { name, distribution: Some(at_noise("seed")), ..FactorSection::default() };
+        file.factor.push(At::new(noise.span(), fields));
+    }
+    Ok(())
 }

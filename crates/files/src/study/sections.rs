@@ -1,5 +1,6 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
-//! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
+//! What was typed: the study file as TOML sees it, every value with its place in the text, once
+//! [`resolve`](super::resolve) has brought what can be written in several ways to one. The comments on its fields are what
+//! editors show, by the schema.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,7 +22,7 @@ use serde_json::json;
 
 use super::at::ListOrTable;
 pub(super) use super::at::{At, Choices};
-use super::command::file::CommandKey;
+use super::command::CommandKey;
 use super::key_schemas::{self, names};
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.

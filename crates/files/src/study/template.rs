@@ -6,8 +6,8 @@ use apportion::text::capitalised;
 use apportion_afm::Options;
 
 use super::context::unknown_name;
+use super::distribution::with_unit;
 use super::error::Problem;
-use super::units::with_unit;
 use crate::ModelKind;
 
 /// The request for a new study.

@@ -6,37 +6,29 @@
 //! advances of the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond 1e300)
 //! appear as missing values or gaps.
 
-mod bar;
-mod description;
 mod draw;
 mod figure;
 mod flags;
-mod font;
 mod labels;
 mod layout;
 mod model;
-mod palette;
 mod path;
-#[cfg(feature = "pdf")]
-mod pdf;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
 mod rows;
 mod scale;
-mod series;
 mod style;
 mod svg;
-mod symbols;
 mod text;
 
-pub use bar::Bar;
+pub use model::Bar;
 pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
-pub use palette::Colour;
+pub use model::{Series, Stroke};
 #[cfg(feature = "pdf")]
-pub use pdf::pdf;
+pub use png::pdf;
 #[cfg(feature = "png")]
 pub use png::{PictureError, png};
 pub use scale::Spacing;
-pub use series::{Series, Stroke};
+pub use style::Colour;
 pub use style::{ChartWidth, PaperWidth};

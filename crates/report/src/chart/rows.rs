@@ -1,13 +1,13 @@
 //! Draws horizontal bars in rows, with their names and intervals.
 
-use super::bar::Bar;
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name};
+use super::model::Bar;
+use super::model::Series;
 use super::model::{Mark, Panel, Shape};
-use super::series::Series;
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
-use super::symbols::{HALF_DIAMOND, stripes};
+use super::svg::{HALF_DIAMOND, stripes};
 use super::text::shorten;
 
 /// Gap between two cells of a map, px.

@@ -2,7 +2,7 @@
 
 use askama::Template;
 
-use super::anchors::href;
+use super::symbols::href;
 use super::symbols::{clean, escaped, symbols};
 use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
 use crate::chart::ChartWidth;

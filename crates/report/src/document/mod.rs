@@ -9,7 +9,6 @@
 //! The columns of a table are defined once, see [`Table::from_rows`]: heading, printed text, name and value in the
 //! file.
 
-mod anchors;
 mod html;
 mod report;
 mod symbols;

@@ -5,10 +5,10 @@ use apportion::result::{StudySetup, ValidityRecord};
 
 use super::{DataFile, Document, Figure, Part, Section, Table, UNNUMBERED, figures_mut};
 use crate::chart::Chart;
+use crate::file_stems;
 use crate::format::heading;
 use crate::leading::first_answers;
-use crate::study_sections::{study_section, validity_section};
-use crate::{file_stems, validity};
+use crate::study_sections::{self, study_section, validity_section};
 
 /// The report on one output.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,8 +74,8 @@ impl Report<'_> {
         let answers = self.outputs.iter_mut().map(|output| std::mem::take(&mut output.answer));
         let mut lead = first_answers(answers.filter(|answer| !answer.is_empty()).collect());
         lead.append(&mut self.lead);
-        lead.extend(validity::sentence(self.validity));
-        lead.extend(validity::of_failures(self.failed_runs.0, self.failed_runs.1));
+        lead.extend(study_sections::sentence(self.validity));
+        lead.extend(study_sections::of_failures(self.failed_runs.0, self.failed_runs.1));
         let of_outputs = self.of_outputs();
         let mut sections: Vec<Section> = self.first.into_iter().chain(of_outputs).chain(self.then).collect();
         sections.extend(Part::notes(self.notes).map(|notes| Section::new("notes", "Notes", vec![notes])));

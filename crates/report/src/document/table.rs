@@ -147,7 +147,7 @@ pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> Stri
         let table = table.borrow();
         let row = |row: &Vec<Cell>| -> Vec<String> {
             let in_file = table.columns.iter().zip(row).filter(|(column, _)| !column.names.is_empty());
-            in_file.flat_map(|(_, cell)| cell.value.cells(&cell.text)).collect()
+            in_file.flat_map(|(_, cell)| cell.value.0.clone()).collect()
         };
         table.rows.iter().map(row).collect::<Vec<_>>()
     });
@@ -200,18 +200,20 @@ impl<R: Copy> Rows<R> {
 
     /// Writes the last column to the file under `name`, as printed.
     pub fn named(self, name: impl Into<String>) -> Self {
-        self.value(name, |_| Value::Printed)
+        self.in_file(vec![inert(name.into())], |cell, _| cell.text.as_str().into())
     }
 
     /// Writes the last column to the file under `name`, with this value.
     pub fn value<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
-        self.in_file(vec![inert(name.into())], value)
+        self.in_file(vec![inert(name.into())], |_, row| value(row).into())
     }
 
     /// Writes the last column to the file as an estimate with its bounds.
     pub fn estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
         let name = name.into();
-        self.in_file(["", "_low", "_high"].map(|suffix| inert(format!("{name}{suffix}"))).to_vec(), value)
+        self.in_file(["", "_low", "_high"].map(|suffix| inert(format!("{name}{suffix}"))).to_vec(), |_, row| {
+            value(row).into()
+        })
     }
 
     /// Prints the last column only `if_shown`.
@@ -260,12 +262,12 @@ impl<R: Copy> Rows<R> {
         self
     }
 
-    fn in_file<V: Into<Value>>(mut self, names: Vec<String>, value: impl Fn(R) -> V) -> Self {
+    fn in_file(mut self, names: Vec<String>, value: impl Fn(&Cell, R) -> Value) -> Self {
         if let Some(column) = self.table.columns.last_mut() {
             column.names = names;
         }
         let cells = self.table.rows.iter_mut().filter_map(|cells| cells.last_mut());
-        cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(*row).into());
+        cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(cell, *row));
         self
     }
 }
@@ -290,11 +292,6 @@ impl Cell {
     pub fn marked(text: impl Into<String>, mark: Mark) -> Self {
         Self { text: text.into(), mark, ..Self::default() }
     }
-
-    /// Creates a cell that prints `text` where a file has `value`.
-    pub fn valued(text: impl Into<String>, value: Value) -> Self {
-        Self { text: text.into(), value, ..Self::default() }
-    }
 }
 
 impl From<String> for Cell {
@@ -318,7 +315,7 @@ impl From<&str> for Cell {
 /// Formats an index with the half width of its interval, a dash for `None`.
 impl From<Option<Estimate>> for Cell {
     fn from(estimate: Option<Estimate>) -> Self {
-        Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), estimate.into())
+        estimate.map_or_else(|| "–".to_owned(), give_or_take).into()
     }
 }
 

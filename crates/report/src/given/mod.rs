@@ -1,12 +1,10 @@
 //! Indices from given data: their record, their document and their chart.
 
-mod chart;
 mod document;
 mod measures;
 mod record;
 mod sentences;
 
-use chart::given_chart;
 pub use document::given_document;
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{

@@ -1,12 +1,12 @@
-//! Overview of many outputs: a map of factors and outputs, and the bars of all outputs together.
+//! Overview of many outputs: a map of factors and outputs, the bars of all outputs together, and a series along its axis.
 
-use apportion::result::{IndexRecord, PlainIndexRecord, StudyResult};
+use apportion::result::{IndexRecord, OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
 use apportion::uncertainty::Estimate;
 
-use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
-use super::super::factor_bars::{MAX_BARS, not_drawn, pair_panel};
-use super::super::format::{fixed, index, name};
-use super::super::leading::falling;
+use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Tile};
+use crate::factor_bars::{INDEX, MAX_BARS, not_drawn, pair_panel};
+use crate::format::{axis_unit, fixed, index, name};
+use crate::leading::falling;
 
 /// Maximum number of outputs of a map; of more, an even selection is drawn.
 const ROWS: usize = 40;
@@ -117,4 +117,56 @@ pub(crate) fn together_chart(result: &StudyResult) -> Chart {
         }
     };
     Chart::new(format!("{}: all outputs together", result.study.headline()), caption).panels([panel])
+}
+
+/// Maximum number of factors with lines: those with the largest mean total index.
+const LINES: usize = 8;
+/// Range of an index that is drawn: intervals of values that hardly vary are long.
+const DRAWN: (f64, f64) = (-0.1, 1.1);
+
+/// Returns the values of a series, in order.
+pub(crate) fn values<'a>(result: &'a StudyResult, series: &SeriesRecord) -> &'a [OutputResult] {
+    &result.outputs[series.places()]
+}
+
+/// Returns the positions of the factors by falling total index over the series, or by the sum over its values.
+fn order_of(result: &StudyResult, series: &SeriesRecord) -> Vec<usize> {
+    let total = |value: &OutputResult, factor: usize| {
+        value.indices.as_ref().and_then(|all| all.get(factor)).map_or(0.0, |index| index.effect.total.estimate)
+    };
+    let key = |factor: usize| match &series.indices {
+        Some(indices) => indices.get(factor).map_or(0.0, |index| index.total.estimate),
+        None => values(result, series).iter().map(|value| total(value, factor)).sum(),
+    };
+    falling(&(0..result.indexed_names().len()).map(key).collect::<Vec<f64>>())
+}
+
+/// Draws total and first-order index of every factor against the axis, with their intervals as bands.
+pub(crate) fn along_chart(result: &StudyResult, series: &SeriesRecord) -> Chart {
+    let (order, names) = (order_of(result, series), result.indexed_names());
+    let positions = &series.positions;
+    let panel = |title: &str, read: fn(&IndexRecord) -> Estimate| {
+        let marks = order.iter().take(LINES).enumerate().flat_map(|(rank, &factor)| -> [Mark; 2] {
+            let curves = Series::new(name(names[factor]), Colour::Series(rank));
+            let index = |value: &OutputResult| value.indices.as_ref()?.get(factor).map(read);
+            let drawn = |x: Option<f64>| x.map_or(f64::NAN, |x| x.clamp(DRAWN.0, DRAWN.1));
+            let curve = || positions.iter().zip(values(result, series)).map(|(x, value)| (*x, index(value)));
+            let band = curve().map(|(x, of)| {
+                let interval = of.and_then(|of| of.interval);
+                (x, drawn(interval.map(|i| i.low)), drawn(interval.map(|i| i.high)))
+            });
+            let line = curve().map(|(x, of)| (x, drawn(of.map(|of| of.estimate))));
+            [curves.band(band.collect()), curves.line(line.collect())]
+        });
+        let x = Axis::new(name(&series.axis), axis_unit(&series.axis_unit));
+        Panel::new(x, Axis::new(INDEX, "")).titled(title).with(marks)
+    };
+    let panels = [
+        panel("Total indices S_T: with all interactions", |index| index.effect.total),
+        panel("First-order indices S_1: alone", |index| index.effect.first_order),
+    ];
+    let caption =
+        format!("Bands are the 95 % intervals of each value, drawn from −0.1 to 1.1.{}", not_drawn(order.len(), LINES));
+    let title = format!("{}: indices along the axis of {}", result.study.headline(), name(&series.name));
+    Chart::new(title, caption).panels(panels)
 }

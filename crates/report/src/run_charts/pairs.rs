@@ -1,13 +1,13 @@
-//! Interactions of pairs of factors: second-order indices as a map.
+//! The indices: first order with total, second order as a map of pairs, and their convergence during the run.
 
-use apportion::result::{OutputResult, StudyResult};
+use apportion::result::{IndexRecord, OutputResult, PlainIndexRecord, StageRecord, StudyResult};
 use apportion::uncertainty::Estimate;
 
-use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
-use super::super::factor_bars::not_drawn;
-use super::super::format::{index, name};
-use super::super::leading::{by_total, surely_interact};
 use super::map::{class, series, short};
+use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke, Tile};
+use crate::factor_bars::{INDEX, INDICES, MAX_BARS, both_orders, index_panel, not_drawn, pair_panel};
+use crate::format::{grouped, index, name, two_digits};
+use crate::leading::{by_total, leader_of, surely_interact, widest_of};
 
 /// Maximum number of factors: with more, the figures would not fit into the cells on a phone.
 const MAX_PAIRS: usize = 15;
@@ -58,4 +58,96 @@ fn pair(output: &OutputResult, [one, other]: [&str; 2]) -> Option<(usize, Estima
     let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
     let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;
     Some((place, pair.index)).filter(|(_, index)| index.estimate.is_finite())
+}
+
+/// Draws the first-order and total index of every factor, as parts of the output's variance, with their intervals; the
+/// largest total index on top. Of more than 20 factors, the first 20.
+pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
+    let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
+    let names = indices.iter().map(|index| name(&index.factor));
+    let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", name(&noise.name))));
+    let effects = || indices.iter().map(|index| &index.effect).chain(output.noise.iter().map(|noise| &noise.effect));
+    let (factors, first_order) = (names.collect(), effects().map(|effect| Some(effect.first_order)).collect());
+    let total = effects().map(|effect| Some(effect.total)).collect();
+    let keys: Vec<f64> = effects().map(|effect| effect.weight().estimate).collect();
+    let panel = match indices.iter().any(|index| index.effect.dependent.is_some()) {
+        true => {
+            let mut series = both_orders(first_order, total);
+            let names = ["S_1, first order: with dependence on others", "S_T, total: without dependence on others"];
+            series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
+            index_panel(INDEX, factors, series, INDICES, &keys)
+        }
+        false => pair_panel(factors, first_order, total, &keys),
+    };
+    let title = format!("{}: indices of {}", result.study.headline(), name(&output.name));
+    Chart::new(title, leader_of(output) + &not_drawn(indices.len(), MAX_BARS)).panels([panel])
+}
+
+/// Factors with a line of their own.
+const LINES: usize = 8;
+
+/// Draws the total indices and the half widths of their intervals against the number of model runs, for the factors
+/// with the largest total indices (at most eight). A target is drawn as a line among the half widths.
+pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
+    let factors: Vec<usize> =
+        by_total(output).unwrap_or_default().into_iter().map(|(factor, _)| factor).take(LINES).collect();
+    let stages = &output.convergence;
+    let axis = |label: &str, spacing| Axis::new(label, "").spaced(spacing);
+    let totals = factors.iter().enumerate().flat_map(|(place, &factor)| total_lines(stages, place, factor));
+    let widths = factors.iter().enumerate().map(|(place, &factor)| width_line(stages, place, factor));
+    let target = result.stopping.as_ref().and_then(|stopping| stopping.target_half_width);
+    let references = [Some(largest_width(stages)), target.map(|target| target_line(stages, target))];
+    let panel = |title: &str, y| Panel::new(axis("model runs", Spacing::Logarithmic), y).titled(title);
+    let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
+    let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
+        .with(widths);
+    let title = format!("{}: convergence of the indices of {}", result.study.headline(), name(&output.name));
+    Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
+}
+
+/// Returns the series of the factor at `place` among the drawn ones.
+fn line_series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
+    let index = stages.first().and_then(|stage| stage.indices.get(factor));
+    let name = index.map_or_else(String::new, |index| self::name(&index.factor));
+    Series::new(name, Colour::Series(place)).stroke(Stroke::SolidWithPoints)
+}
+
+/// Iterates over the number of runs and the index of `factor` at every stage.
+fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> {
+    stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
+}
+
+fn total_lines(stages: &[StageRecord], place: usize, factor: usize) -> [Mark; 2] {
+    let series = line_series(stages, place, factor);
+    let bounds = |(runs, index): (f64, &PlainIndexRecord)| index.total.interval.map(|i| (runs, i.low, i.high));
+    let band = steps(stages, factor).filter_map(bounds).collect();
+    [series.band(band), series.line(steps(stages, factor).map(|(runs, index)| (runs, index.total.estimate)).collect())]
+}
+
+fn width_line(stages: &[StageRecord], place: usize, factor: usize) -> Mark {
+    let width = |(runs, index): (f64, &PlainIndexRecord)| Some((runs, index.total.interval?.width() / 2.0));
+    line_series(stages, place, factor).line(steps(stages, factor).filter_map(width).collect())
+}
+
+fn largest_width(stages: &[StageRecord]) -> Mark {
+    let points = stages.iter().filter_map(|stage| Some((stage.model_runs as f64, stage.largest_half_width?)));
+    let series = Series::new("largest half width of all indices", Colour::Reference).stroke(Stroke::Dashed);
+    series.line(points.collect())
+}
+
+fn target_line(stages: &[StageRecord], target: f64) -> Mark {
+    let points = stages.iter().map(|stage| (stage.model_runs as f64, target));
+    Series::new("target", Colour::Reference).line(points.collect())
+}
+
+/// States the precision of the indices at the end.
+fn caption(result: &StudyResult, output: &OutputResult) -> String {
+    let known = match (output.convergence.last(), widest_of(output)) {
+        (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),
+        (Some(last), None) => {
+            format!("After {} model runs there are indices without an interval.", grouped(last.model_runs))
+        }
+        (None, _) => "There are too few base samples to estimate the indices from parts of them.".to_owned(),
+    };
+    known + &not_drawn(result.indexed_names().len(), LINES)
 }

@@ -5,30 +5,11 @@ use apportion::result::{OutputResult, StudyResult};
 
 use crate::chart::Chart;
 use crate::document::{Figure, Part};
-use crate::{
-    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, shapley_chart,
-};
+use crate::file_stems;
 
-/// A chart of an output.
-#[derive(Clone, Copy)]
-pub(super) struct Kind {
-    /// Suffix of the names of its files.
-    suffix: &'static str,
-    /// Its anchor.
-    name: &'static str,
-    draw: fn(&StudyResult, &OutputResult) -> Chart,
-    /// Suffix of the file with its numbers.
-    data: &'static str,
-}
-
-pub(super) const SHARES: Kind = Kind { suffix: "", name: "shares", draw: shapley_chart, data: ".csv" };
-pub(super) const INDICES: Kind = Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" };
-pub(super) const SCATTER: Kind = Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" };
-pub(super) const DISTRIBUTION: Kind =
-    Kind { suffix: "-distribution", name: "distribution", draw: distribution_chart, data: "" };
-pub(super) const CONVERGENCE: Kind =
-    Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" };
-pub(super) const PAIRS: Kind = Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" };
+/// Suffixes of the names of the files of all charts, each after a hyphen except the first.
+const SUFFIXES: [&str; 8] =
+    ["", "-indices", "-scatter", "-distribution", "-convergence", "-pairs", "-along", "-together"];
 
 /// Returns the prefixes of the files of the charts: of each of the outputs of `single`, which are in no series, if they
 /// are few, and of each series of `result`.
@@ -41,8 +22,7 @@ pub(super) fn stems(result: &StudyResult, single: &StudyResult) -> (Vec<String>,
     }
     let count = names.len();
     names.extend(result.series.iter().map(|series| series.name.as_str()));
-    let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
-    let mut outputs = file_stems(&result.study.name, &names, &[&kinds[..], &["-along", "-together"]].concat());
+    let mut outputs = file_stems(&result.study.name, &names, &SUFFIXES);
     let series = outputs.split_off(count);
     (if is_many { Vec::new() } else { outputs }, series)
 }
@@ -70,8 +50,10 @@ impl<'a> Figures<'a> {
         self.figure(chart, name, stem.to_owned(), ".csv")
     }
 
-    /// Draws the figure of that kind of output number `number`.
-    pub fn draw(&self, number: usize, Kind { suffix, name, draw, data }: Kind) -> Part {
+    /// Draws a figure of output number `number`: its anchor ends in `name`, the name of the file with its numbers in
+    /// `data`.
+    pub fn draw(&self, number: usize, name: &str, draw: fn(&StudyResult, &OutputResult) -> Chart, data: &str) -> Part {
+        let suffix = SUFFIXES.into_iter().find(|suffix| suffix.strip_prefix('-') == Some(name)).unwrap_or_default();
         let stem = self.stems.get(number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
         self.figure(draw(self.result, self.output(number)), &format!("{number}-{name}"), stem, data)
     }

@@ -5,10 +5,8 @@ use apportion::result::{OutputResult, StudyResult};
 use apportion::text::listed;
 
 use super::overview;
-use super::shared::complement;
-use crate::format::{grouped, index, is_above_zero, name, percent, two_digits};
-use crate::interval_widths::{WIDE, indices_measured, widest_interval};
-use crate::leading::{self, Contender, by_total, first_answers, leader_of};
+use crate::format::{grouped, index, name, two_digits};
+use crate::leading::{self, Contender, WIDE, by_total, first_answers, indices_measured, leader_of, widest_interval};
 
 /// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
 pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
@@ -31,19 +29,8 @@ pub(super) fn answer(output: &OutputResult) -> String {
         next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();
     let verb = if next.len() == 1 { "comes" } else { "come" };
     let next = (!next.is_empty()).then(|| format!("Next {verb} {}.", listed(&next)));
-    let sentences = [Some(leader_of(output)), super::noise::sentence(output).or(next)];
+    let sentences = [Some(leader_of(output)), super::output::sentence(output).or(next)];
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
-}
-
-/// States the sum of the first-order indices, and the least share of the variance that is interaction.
-pub(super) fn interactions(output: &OutputResult) -> Option<String> {
-    let sum = output.sum_first_order?;
-    let rest = complement(sum);
-    let interaction = match is_above_zero(rest) {
-        true => format!(", so {} of the variance is interaction", percent(rest)),
-        false => String::new(),
-    };
-    Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
 }
 
 /// States the precision of the indices, and the number of runs.

@@ -2,29 +2,23 @@
 
 mod figures;
 mod lead;
-mod measures;
-mod noise;
 mod output;
 mod overview;
 mod series;
 mod shared;
 mod tables;
-mod values;
-mod warnings;
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
 use apportion::text::{capitalised, listed};
 use figures::Figures;
-use output::Topic;
 pub use series::one_output;
+use shared::grouped_warnings;
 pub(crate) use tables::{FACTORS, IN_CSV};
-use warnings::grouped_warnings;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, printed, significant};
-use super::study_sections::{study_section, validity_section};
-use super::validity;
+use super::study_sections::{self, study_section, validity_section};
 
 /// Builds the document of a result. All of it comes from the result, so that it can be rebuilt from the JSON file. With
 /// one output every topic is a section; with several every output is; with 12 or more there is an overview, and the
@@ -56,7 +50,7 @@ pub fn run_document(result: &StudyResult) -> Document {
     sections.extend(if is_many { overview::sections(figures) } else { of_outputs(figures) });
     let figure = |of: &Section| of.parts.iter().position(|part| matches!(part, Part::Figure(_)));
     let first = sections.iter_mut().find_map(|of| Some((figure(of)?, of)));
-    if let (Some(callout), Some((figure, of))) = (validity::callout(result), first) {
+    if let (Some(callout), Some((figure, of))) = (study_sections::callout(result), first) {
         of.parts.insert(figure + 1, callout);
     }
     sections.extend(validity_section(&result.validity));
@@ -83,7 +77,7 @@ pub fn run_document(result: &StudyResult) -> Document {
         put("-second-order.csv", tables::pairs_csv(result));
     }
     if result.outputs.iter().any(|output| output.measures.is_some()) {
-        put("-measures.csv", measures::measures_csv(result));
+        put("-measures.csv", output::measures_csv(result));
     }
     if result.outputs.iter().any(|output| !output.estimators.is_empty()) {
         put("-estimators.csv", tables::estimators_csv(result));
@@ -104,7 +98,7 @@ fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
     for (number, output) in (1..).zip(&result.outputs) {
         let topics = output::topics(figures, number);
         if figures.is_only {
-            sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
+            sections.extend(topics);
         } else {
             let heading = super::format::heading(&output.name, &output.unit);
             sections.push(Section::new(&format!("output-{number}"), &heading, under_headings(topics)));
@@ -119,8 +113,8 @@ fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
 }
 
 /// Joins the parts of all topics, each under its title.
-fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
-    let under = |Topic { title, parts, .. }: Topic| std::iter::once(Part::Heading(title.to_owned())).chain(parts);
+fn under_headings(topics: Vec<Section>) -> Vec<Part> {
+    let under = |Section { title, parts, .. }: Section| std::iter::once(Part::Heading(title)).chain(parts);
     topics.into_iter().flat_map(under).collect()
 }
 

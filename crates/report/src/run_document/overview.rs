@@ -4,9 +4,8 @@ use apportion::result::{OutputResult, StudyResult};
 use apportion::text::listed;
 
 use super::figures::Figures;
-use super::shared::{definitions, failed_runs};
+use super::shared::{definitions, failed_runs, grouped_warnings};
 use super::tables::{FACTORS, IN_CSV};
-use super::warnings::grouped_warnings;
 use crate::document::{Part, Section, Table, largest};
 use crate::format::{name, or_dash, short, value};
 use crate::leading::{Contender, by_total, leader_of_all, leaders, of_which};

@@ -8,7 +8,7 @@ use super::shared::definitions;
 use crate::document::{Part, Section, Table};
 use crate::format::{heading, name};
 use crate::leading::leader_of_all;
-use crate::run_charts::{SeriesOf, along_chart, together_chart};
+use crate::run_charts::{along_chart, together_chart, values};
 
 /// Number of series with all their charts and a table of their values.
 const IN_FULL: usize = 4;
@@ -17,9 +17,8 @@ const IN_FULL: usize = 4;
 const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
 
 /// Returns the values of `series` alone, as a result of its own.
-fn values_alone(of: SeriesOf<'_>) -> StudyResult {
-    let SeriesOf { result, series } = of;
-    let outputs = of.values().to_vec();
+fn values_alone(result: &StudyResult, series: &SeriesRecord) -> StudyResult {
+    let outputs = values(result, series).to_vec();
     let aggregate = AggregateRecord {
         outputs: outputs.iter().map(|output| output.name.clone()).collect(),
         weighting: WEIGHTING.to_owned(),
@@ -79,12 +78,11 @@ fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Opt
 /// Builds the sections of all series of `result`.
 pub(super) fn sections(result: &StudyResult, stems: &[String]) -> Vec<Section> {
     let section = |(place, (series, stem)): (usize, (&SeriesRecord, &String))| {
-        let of = SeriesOf { result, series };
-        let (alone, number) = (values_alone(of), place + 1);
+        let (alone, number) = (values_alone(result, series), place + 1);
         let parts = match place {
             ..IN_FULL => {
                 let figures = Figures { result: &alone, stems: &[], series: Some(number), is_only: false };
-                in_full(of, figures, stem, place == 0)
+                in_full(result, series, figures, stem, place == 0)
             }
             _ => vec![overview::factors(&alone).into()],
         };
@@ -94,19 +92,19 @@ pub(super) fn sections(result: &StudyResult, stems: &[String]) -> Vec<Section> {
     result.series.iter().zip(stems).enumerate().map(section).collect()
 }
 
-fn in_full(of: SeriesOf<'_>, figures: Figures<'_>, stem: &str, is_first: bool) -> Vec<Part> {
-    let (alone, study) = (figures.result, &of.result.study.name);
+fn in_full(result: &StudyResult, series: &SeriesRecord, figures: Figures<'_>, stem: &str, is_first: bool) -> Vec<Part> {
+    let (alone, study) = (figures.result, &result.study.name);
     let mut parts = overview::mind(alone);
     if is_first {
-        parts.extend(definitions(of.result));
+        parts.extend(definitions(result));
         parts.push(Part::Text(format!("The indices of every value are in `{study}.csv`, all else in `{study}.json`.")));
     }
-    parts.push(figures.of_all(along_chart(of), "along", &format!("{stem}-along")));
+    parts.push(figures.of_all(along_chart(result, series), "along", &format!("{stem}-along")));
     parts.push(Part::Heading("As a whole".to_owned()));
-    let reason = of.series.reason.as_ref();
+    let reason = series.reason.as_ref();
     parts.extend(reason.map(|reason| Part::no_indices(format!("There are no indices of the whole series: {reason}."))));
     let mut chart = together_chart(alone);
-    chart.title = chart.title.replace("all outputs together", &format!("{} as a whole", name(&of.series.name)));
+    chart.title = chart.title.replace("all outputs together", &format!("{} as a whole", name(&series.name)));
     parts.push(figures.of_all(chart, "together", &format!("{stem}-together")));
     let caption = "Indices of the whole series, the number of its values for which a factor surely matters most, and the median and \
                    largest of its total indices.";
@@ -118,7 +116,7 @@ fn in_full(of: SeriesOf<'_>, figures: Figures<'_>, stem: &str, is_first: bool) -
 /// Returns the paragraph at the top on a series: the leading factor over all of it.
 pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
     let label = name(&series.name);
-    let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());
+    let whole = format!("For {label} as a whole ({} values)", values(result, series).len());
     let sentence = series.indices.as_ref().and_then(|indices| leader_of_all(indices, &whole));
     let reason = || series.reason.as_deref().unwrap_or("the result has none");
     sentence.unwrap_or_else(|| format!("There are no indices of {label} as a whole: {}.", reason()))

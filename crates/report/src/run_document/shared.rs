@@ -1,9 +1,10 @@
-//! Parts shared by sections of one output and of many.
+//! Parts shared by sections of one output and of many, and warnings of several outputs, each kind once.
 
-use apportion::result::{OutputResult, StudyResult};
+use apportion::result::{OutputResult, StudyResult, Warning};
 use apportion::uncertainty::{Estimate, Interval};
 
-use crate::document::Part;
+use crate::document::{Part, grouped_by_key};
+use crate::leading::of_which;
 use crate::study_sections::{failures, inputs};
 
 /// Says why runs of an output failed.
@@ -43,4 +44,26 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
 pub(super) fn complement(part: Estimate) -> Estimate {
     let interval = part.interval.map(|Interval { low, high }| Interval { low: 1.0 - high, high: 1.0 - low });
     Estimate { estimate: 1.0 - part.estimate, interval }
+}
+
+/// Returns the warnings, a sentence for each kind in the order of first occurrence: the first warning of a kind, its
+/// outputs if there are several in all, and the number of further ones of the kind in the file.
+pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
+    let places = outputs.iter().enumerate();
+    let warnings = places.flat_map(|(place, output)| output.warnings.iter().map(move |warning| (place, warning)));
+    let groups = grouped_by_key(warnings.map(|(place, warning)| (warning.code(), (place, warning))));
+    let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+    let sentence = |(_, all): &(&str, Vec<(usize, &Warning)>)| {
+        let mut text = all[0].1.to_string();
+        let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
+        places.dedup();
+        if outputs.len() > 1 {
+            text.push_str(&format!(" ({})", of_which(&names, &places)));
+        }
+        if all.len() > places.len() {
+            text.push_str(&format!("; {} similar warnings in the JSON file", all.len() - places.len()));
+        }
+        text
+    };
+    groups.iter().map(sentence).collect()
 }

@@ -1,15 +1,16 @@
-//! A screening as a document.
+//! A screening as a document, with its charts: mu* against sigma, and mu* with its intervals.
 
 use apportion::result::json;
-use apportion::screening::{FIXABLE, ScreenedFactor, ScreenedOutput};
+use apportion::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
 use apportion::text::listed;
 use apportion::uncertainty::Estimate;
 
 use super::ScreeningFile;
-use super::charts::{bars, leader, scatter};
+use crate::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};
 use crate::document::{Document, OutputReport, Report, Table};
-use crate::format::{grouped, index, name, or_dash, short, words};
-use crate::leading::NAMES;
+use crate::factor_bars::{MAX_BARS, not_drawn};
+use crate::format::{axis_unit, grouped, index, index_with_unit, name, or_dash, short, words};
+use crate::leading::{self, Contender, NAMES};
 use crate::run_document::{FACTORS, IN_CSV};
 use crate::study_sections::{failures, inputs};
 
@@ -104,4 +105,102 @@ fn fixable(output: &ScreenedOutput) -> String {
         name(&output.name),
         100.0 * FIXABLE
     )
+}
+
+/// Returns the series of a reading: the calmest colour for the simplest reading.
+fn series(reading: Option<Reading>) -> Series {
+    let colour = match reading {
+        Some(Reading::NonLinearOrInteracting) => Colour::Series(1),
+        Some(Reading::AlmostMonotone) => Colour::Series(4),
+        Some(Reading::Monotone) => Colour::Series(5),
+        Some(Reading::Linear) => Colour::Series(6),
+        None => Colour::Reference,
+    };
+    Series::new(reading.map_or("no effect", Reading::words), colour)
+}
+
+fn title(file: &ScreeningFile, output: &ScreenedOutput) -> String {
+    format!("{}: screening of {}", file.study.headline(), name(&output.name))
+}
+
+fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
+    Axis::new(symbol, axis_unit(&output.unit))
+}
+
+/// Draws mu* against sigma.
+pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+    let known: Vec<(&ScreenedFactor, f64, f64)> = output
+        .factors
+        .iter()
+        .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
+        .collect();
+    let points = readings().flat_map(|reading| {
+        let own = known.iter().filter(move |(factor, ..)| factor.reading == reading);
+        own.map(move |&(factor, x, y)| {
+            // Those without effect all lie at the origin; the caption names them.
+            let label = reading.map_or_else(String::new, |_| words(&factor.factor));
+            series(reading).mark(Shape::Point(Point { x, y, label }))
+        })
+    });
+    let caption = format!(
+        "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from {} \
+         trajectories. {}",
+        file.provenance.trajectories,
+        leader(output)
+    );
+    let (right, top) = known.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
+    let slopes =
+        [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
+    let slopes = slopes.map(|(slope, name, stroke)| {
+        let end = f64::min(right, top / slope);
+        Series::new(name, Colour::Reference).stroke(stroke).line(vec![(0.0, 0.0), (end, slope * end)])
+    });
+    let (x, y) = (axis("μ*, mean size of the effects", output), axis("σ, standard deviation of the effects", output));
+    Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
+}
+
+/// Iterates over the readings, that of factors without effect last.
+fn readings() -> impl Iterator<Item = Option<Reading>> {
+    Reading::ALL.into_iter().rev().map(Some).chain([None])
+}
+
+/// Draws mu* with its intervals.
+pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+    let bars = readings().flat_map(|reading| {
+        let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
+        own.filter_map(move |(row, factor)| {
+            let mu_star = factor.mu_star?;
+            let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
+            let label = index_with_unit(mu_star, &output.unit) + fixed;
+            let (to, interval, said) = (mu_star.estimate, mu_star.interval.map(|i| (i.low, i.high)), label.clone());
+            let bar = Bar { row, to, interval, label, said, ..Bar::default() };
+            // A bar of zero length would still add a colour to the legend.
+            let series = if reading.is_some() { series(reading) } else { Series::default() };
+            Some(series.mark(Shape::Bar(bar)))
+        })
+    });
+    let caption = format!(
+        "Mean size μ* of the elementary effects per full range of each factor. A factor could be fixed where the upper \
+         bound of μ* lies below {} % of the largest μ*. {}{}",
+        100.0 * FIXABLE,
+        leader(output),
+        not_drawn(output.factors.len(), MAX_BARS)
+    );
+    let x = axis("μ*, mean size of the effects per full range of the factor", output);
+    let rows = Axis::from_names("", output.factors.iter().map(|factor| words(&factor.factor)).collect());
+    let keys: Vec<f64> = output.factors.iter().map(|factor| -(factor.rank as f64)).collect();
+    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MAX_BARS)])
+}
+
+/// Says which factor matters most.
+pub(super) fn leader(output: &ScreenedOutput) -> String {
+    let contender = |factor: &ScreenedFactor| {
+        let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
+        Some(Contender::new(name(&factor.factor), total))
+    };
+    let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
+    let output_name = name(&output.name);
+    let measure = "mean effect size μ*";
+    let found = leading::leader(&moving, &format!("For {output_name}"), measure, &axis_unit(&output.unit));
+    found.unwrap_or_else(|| format!("No factor has any effect on {output_name}."))
 }

@@ -1,6 +1,5 @@
 //! A screening: its record, its document and its charts.
 
-mod charts;
 mod document;
 mod record;
 

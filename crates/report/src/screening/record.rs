@@ -12,7 +12,7 @@ use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 use serde::{Deserialize, Serialize};
 
-use super::super::with_unit;
+use crate::with_unit;
 
 /// A whole screening.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

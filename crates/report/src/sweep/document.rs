@@ -1,14 +1,17 @@
-//! Sweeps as a document.
+//! Sweeps as a document, with their charts: every output against each factor, and the effect of each factor on each output.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::json;
 use apportion::sweep::{NominalOutput, Sweep, SweptOutput};
+use apportion::text::listed;
 
-use super::charts::figures;
 use super::record::{value_in_words, width};
 use super::{SweepFile, gap_lines};
-use crate::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
-use crate::format::{grouped, heading, name, or_dash, short, short_with_unit, value};
+use crate::chart::{Axis, Bar, Chart, Colour, Mark as ChartMark, Panel, Series, Shape, Spacing, Stroke};
+use crate::document::{Document, Figure, Mark, OutputReport, Part, Report, Section, Table, Value};
+use crate::factor_bars::{MAX_BARS, not_drawn};
+use crate::file_stems;
+use crate::format::{axis_unit, grouped, heading, name, or_dash, printed, short, short_with_unit, value, words};
 
 /// Builds the document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
@@ -123,4 +126,163 @@ fn all_values(file: &SweepFile) -> Table {
             output.gaps.iter().find(|gap| gap.place == place).map(|gap| gap.reason.as_str())
         })
         .into()
+}
+
+/// Maximum number of values for which each is marked by a point.
+const MAX_MARKED_VALUES: usize = 12;
+/// Ratio of the largest to the smallest value from which on an axis is logarithmic.
+const WIDE: f64 = 50.0;
+/// Colours of the low and the high end of a factor, and of whole ranges.
+const LOW_END: Colour = Colour::Series(5);
+const HIGH_END: Colour = Colour::Series(1);
+const WHOLE_RANGE: Colour = Colour::Series(6);
+
+/// Draws per output the ranges of all factors, `STUDY-sweep-ranges`, with the output's name at the end if there are
+/// several; and one line chart per factor, `STUDY-sweep-FACTOR`, with a panel per output.
+pub(super) fn figures(file: &SweepFile) -> (Vec<Figure>, Vec<Figure>) {
+    let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
+    let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
+    let names = file.nominal.iter().map(|nominal| match file.nominal.len() {
+        1 => "ranges".to_owned(),
+        _ => format!("ranges-{}", nominal.output),
+    });
+    let names: Vec<String> = names.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let stems = file_stems(&format!("{}-sweep", file.study.name), &names, &[""]);
+    let mut figures: Vec<Figure> = charts.zip(stems).map(|(chart, stem)| Figure::unnumbered(chart, stem)).collect();
+    let curves = figures.split_off(file.nominal.len());
+    (figures, curves)
+}
+
+fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
+    let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
+    let x = match &sweep.labels {
+        // Names have no unit.
+        Some(labels) => Axis::from_names(words(&sweep.factor), labels.clone()),
+        None => Axis::new(words(&sweep.factor), axis_unit(&sweep.unit)).spaced(if logarithmic {
+            Spacing::Logarithmic
+        } else {
+            Spacing::Linear
+        }),
+    };
+    let panel = |(number, nominal): (usize, &NominalOutput)| {
+        let spacing = if is_wide(&sweep.outputs[number]) { Spacing::Logarithmic } else { Spacing::Linear };
+        let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
+        let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| ChartMark::rule(x, "nominal"));
+        Panel::new(x.clone(), y).with([line(sweep, &sweep.outputs[number])]).with(rule)
+    };
+    let mut axes: Vec<String> = file
+        .nominal
+        .iter()
+        .enumerate()
+        .filter(|(number, _)| is_wide(&sweep.outputs[*number]))
+        .map(|(_, nominal)| name(&nominal.output))
+        .collect();
+    if logarithmic {
+        axes.insert(0, words(&sweep.factor));
+    }
+    let logarithmic_axes = match axes.len() {
+        0 => String::new(),
+        1 => format!(" The axis of {} is logarithmic.", axes[0]),
+        _ => format!(" The axes of {} are logarithmic.", listed(&axes)),
+    };
+    Chart::new(format!("{}: {}", file.study.headline(), words(&sweep.factor)), caption(sweep) + &logarithmic_axes)
+        .panels(file.nominal.iter().enumerate().map(panel))
+}
+
+/// Returns the position of a value on the horizontal axis: categories are evenly spaced, numbers are at their value.
+fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
+    match &sweep.labels {
+        Some(_) => sweep.values.iter().position(|other| *other == value).map(|place| place as f64),
+        None => Some(value),
+    }
+}
+
+/// Returns whether an output spans so much that a linear axis would hide the lower part.
+fn is_wide(output: &SweptOutput) -> bool {
+    output.low.zip(output.high).is_some_and(|(low, high)| low > 0.0 && high / low > WIDE)
+}
+
+/// Draws the curve of an output.
+fn line(sweep: &Sweep, output: &SweptOutput) -> ChartMark {
+    let points = sweep.values.iter().zip(&output.values);
+    let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
+    let stroke = match &sweep.labels {
+        // Nothing is drawn between two categories.
+        Some(_) => Stroke::Points,
+        None if sweep.values.len() <= MAX_MARKED_VALUES => Stroke::SolidWithPoints,
+        None => Stroke::Solid,
+    };
+    Series::new("", Colour::Series(0)).stroke(stroke).line(points.collect())
+}
+
+/// Describes the chart: the range of each output, and missing values.
+fn caption(sweep: &Sweep) -> String {
+    let mut text = format!("Over {}, {}; every other factor is nominal.", words(&sweep.factor), from_to(sweep));
+    for output in &sweep.outputs {
+        if let Some(percent) = output.percent {
+            let (output, percent) = (name(&output.name), printed(percent));
+            text.push_str(&format!(" It changes {output} by {percent} % of the nominal value in total."));
+        }
+    }
+    for line in gap_lines(sweep) {
+        text.push_str(&format!(" No {}.", words(&line)));
+    }
+    text
+}
+
+/// Formats the ends of a sweep with their unit.
+fn from_to(sweep: &Sweep) -> String {
+    if let Some(labels) = &sweep.labels {
+        return labels.join(", ");
+    }
+    let (Some(from), Some(to)) = (sweep.values.first(), sweep.values.last()) else { return String::new() };
+    let unit = axis_unit(&sweep.unit);
+    let space = if unit.is_empty() { "" } else { " " };
+    match from == to {
+        true => format!("{}{space}{unit}", printed(*to)),
+        false => format!("{} to {}{space}{unit}", printed(*from), printed(*to)),
+    }
+}
+
+fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
+    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?)));
+    let output = name(&nominal.output);
+    let caption = format!(
+        "Values of {output} with one factor at either end of its range and all others at nominal values; the percentages are \
+         of the nominal value.{}",
+        not_drawn(file.sweeps.len(), MAX_BARS)
+    );
+    let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
+    let row_name = |(sweep, effect): (&Sweep, &SweptOutput)| {
+        let percent = effect.percent.map_or_else(String::new, |percent| format!(" by {} %", printed(percent)));
+        format!("{}{percent}: {}", words(&sweep.factor), from_to(sweep))
+    };
+    let rows = Axis::from_names("", sweeps().map(row_name).collect());
+    let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
+    let marks = sweeps().enumerate();
+    let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
+    let keys: Vec<f64> = sweeps().map(|(_, effect)| width(effect)).collect();
+    let panel = Panel::new(x, rows).with(nominal.value.map(|value| ChartMark::rule(value, label(value)))).with(marks);
+    let title = format!("{}: effect of each factor on {output}", file.study.headline());
+    Chart::new(title, caption).panels([panel.ranked(&keys, MAX_BARS)])
+}
+
+/// Draws the bars of a factor: its ends, or its whole range if these are not the extremes.
+fn row_marks(row: usize, sweep: &Sweep, effect: &SweptOutput, nominal: Option<f64>) -> Vec<ChartMark> {
+    let bar = |name: &str, colour, from, to| {
+        Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
+    };
+    let end = |value: Option<&Option<f64>>| value.copied().flatten();
+    let (first, last) = (end(effect.values.first()), end(effect.values.last()));
+    let ends = || [first, last, nominal].into_iter().flatten();
+    let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
+    match (nominal, effect.low.zip(effect.high)) {
+        (_, None) => Vec::new(),
+        (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
+            bar("factor at its low end", LOW_END, from, first.unwrap_or(f64::NAN)),
+            bar("factor at its high end", HIGH_END, from, last.unwrap_or(f64::NAN)),
+        ],
+        (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
+    }
 }

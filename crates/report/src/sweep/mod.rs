@@ -1,6 +1,5 @@
 //! Sweeps: their record, their document and their charts.
 
-mod charts;
 mod document;
 mod record;
 

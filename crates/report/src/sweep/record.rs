@@ -11,7 +11,7 @@ use apportion::study::Study;
 use apportion::sweep::{NominalOutput, Sweep, Sweeps, SweptOutput};
 use serde::{Deserialize, Serialize};
 
-use super::super::format::short_with_unit;
+use crate::format::short_with_unit;
 
 /// All sweeps of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,9 +1,13 @@
-//! A process that is kept alive: its pending rows, the lines that it prints, and its reply times.
+//! A process that is kept alive: its pending rows, the lines that it prints, and its reply times; and the rows of a batch
+//! with their replies.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use super::super::process::{IN_TRANSIT, Process};
+use apportion::model::{Batch, RowFailure};
+
+use crate::command::process::{IN_TRANSIT, Process};
+use crate::command::{CommandModel, not_a_value};
 
 /// Maximum number of bytes of a line, and of output without a reply in it.
 pub(super) const LONGEST: usize = 1 << 20;
@@ -121,5 +125,79 @@ impl Session {
     /// Returns the number of bytes of the incomplete line.
     pub(super) fn unfinished(&self) -> usize {
         self.line.len()
+    }
+}
+
+/// The rows of a batch: they are pending or have a reply.
+pub(super) struct Rows<'a> {
+    model: &'a CommandModel,
+    pub inputs: &'a [&'a [f64]],
+    batch: &'a mut Batch,
+    /// The first row that was never sent.
+    next: usize,
+    /// Number of rows without a reply.
+    pub open: usize,
+    /// Rows that were pending when processes ended, with the number of these: they are sent one at a time.
+    pub suspects: BTreeMap<usize, u32>,
+    /// In the order of the replies: the row, and the output if only that one failed.
+    failures: Vec<(usize, Option<usize>, RowFailure)>,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(model: &'a CommandModel, inputs: &'a [&'a [f64]], batch: &'a mut Batch) -> Self {
+        let open = batch.rows();
+        Self { model, inputs, batch, next: 0, open, suspects: BTreeMap::new(), failures: Vec::new() }
+    }
+
+    /// Returns the row to send next, if any is left.
+    pub(super) fn next(&mut self) -> Option<usize> {
+        if let Some((row, _)) = self.suspects.first_key_value() {
+            return Some(*row);
+        }
+        let row = Some(self.next).filter(|row| *row < self.batch.rows())?;
+        self.next += 1;
+        Some(row)
+    }
+
+    /// Records that a process ended while the row was pending, and returns how many have so far. A process that had
+    /// answered other rows counts only once: it may have ended for another reason.
+    pub(super) fn suspect(&mut self, row: usize, is_own: bool) -> u32 {
+        let is_new = !self.suspects.contains_key(&row);
+        let count = self.suspects.entry(row).or_default();
+        *count += u32::from(is_own || is_new);
+        *count
+    }
+
+    /// Sets the requested ones of the program's `values`.
+    pub(super) fn answer(&mut self, row: usize, values: &[f64]) {
+        let settings = &self.model.settings;
+        for (column, place) in settings.asked.iter().enumerate() {
+            self.batch.set(row, column, settings.outputs[*place].unit.to_si(values[*place]));
+            if !values[*place].is_finite() {
+                self.failures.push((row, Some(column), not_a_value(values[*place])));
+            }
+        }
+        self.close(row);
+    }
+
+    pub(super) fn fail(&mut self, row: usize, reason: &str) {
+        self.failures.push((row, None, RowFailure::new(reason)));
+        self.close(row);
+    }
+
+    fn close(&mut self, row: usize) {
+        self.suspects.remove(&row);
+        self.open -= 1;
+    }
+
+    /// Reports the failures, in the order of the rows.
+    pub(super) fn finish(mut self) {
+        self.failures.sort_by_key(|(row, ..)| *row);
+        for (row, column, failure) in self.failures {
+            match column {
+                Some(column) => self.batch.fail(row, column, failure),
+                None => self.batch.fail_row(row, &failure),
+            }
+        }
     }
 }

@@ -1,14 +1,12 @@
 //! Rows as CSV: with commas, semicolons, tabs or blanks between the cells.
 
 use std::collections::VecDeque;
-use std::io::{BufWriter, Read, Write};
+use std::io::{Read, Write};
 
 use apportion::text::{csv_field, plain_field};
 
 use super::lines::Lines;
-use super::{
-    ColumnKind, ReadOptions, RowReader, RowWriter, check_names, expanded, is_error_word, names_of_columns, number,
-};
+use super::{ColumnKind, ReadOptions, RowReader, check_names, expanded, is_error_word, names_of_columns, number};
 use crate::exchange::error::{TableError, refused};
 
 /// Number of rows that are examined to distinguish text columns from number columns.
@@ -136,25 +134,20 @@ impl RowReader for CsvRows {
         self.width
     }
 
-    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+    fn text_columns(&mut self) -> Result<Vec<(usize, String)>, TableError> {
         while self.ahead.len() < AHEAD
             && let Some(next) = self.next_row()?
         {
             self.ahead.push_back(next);
         }
         let number = ColumnKind::default();
-        let is_text = |place: &usize| {
-            let cells = self.ahead.iter().filter_map(|(record, _)| record.get(*place));
-            let mut values = cells.map(|cell| number.value(cell)).filter(|value| !value.is_some_and(f64::is_nan));
-            values.next().is_some_and(|value| value.is_none())
+        let text = |place: usize| {
+            let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
+            // The first cell with a value decides.
+            let cell = cells.find(|cell| !number.value(cell).is_some_and(f64::is_nan))?;
+            number.value(cell).is_none().then(|| (place, cell.to_owned()))
         };
-        Ok((0..self.width).filter(is_text).collect())
-    }
-
-    fn text_example(&self, place: usize) -> Option<String> {
-        let number = ColumnKind::default();
-        let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
-        cells.find(|cell| number.value(cell).is_none()).map(str::to_owned)
+        Ok((0..self.width).filter_map(text).collect())
     }
 
     fn line(&self, row: usize) -> Option<u64> {
@@ -213,45 +206,30 @@ fn wrong_record(source: csv::Error, line: u64) -> TableError {
     }
 }
 
-/// Writes CSV, every number with as many digits as it takes to read the same bits back.
-pub(super) struct CsvWriter<'a> {
-    out: BufWriter<&'a mut dyn Write>,
-    columns: Vec<ColumnKind>,
+/// Writes the names of the columns.
+pub(super) fn write_header(out: &mut impl Write, columns: &[ColumnKind]) -> std::io::Result<()> {
+    let names: Vec<String> = columns.iter().map(|column| csv_field(&column.name)).collect();
+    writeln!(out, "{}", names.join(","))
 }
 
-impl<'a> CsvWriter<'a> {
-    pub(super) fn new(out: &'a mut dyn Write, columns: Vec<ColumnKind>) -> std::io::Result<Self> {
-        let mut out = BufWriter::new(out);
-        let names: Vec<String> = columns.iter().map(|column| csv_field(&column.name)).collect();
-        writeln!(out, "{}", names.join(","))?;
-        Ok(Self { out, columns })
-    }
-}
-
-impl RowWriter for CsvWriter<'_> {
-    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
-        let out = &mut self.out;
-        for row in 0..columns.first().map_or(0, |column| column.len()) {
-            for (number, (values, kind)) in columns.iter().zip(&self.columns).enumerate() {
-                if number > 0 {
-                    write!(out, ",")?;
-                }
-                let value = values[row];
-                match kind.label(value) {
-                    Some(label) => write!(out, "{}", csv_field(label))?,
-                    // A single empty cell would be an empty line, which readers skip.
-                    None if value.is_nan() && columns.len() == 1 => write!(out, "\"\"")?,
-                    None if value.is_nan() => (),
-                    None if kind.whole => write!(out, "{value}")?,
-                    None => write!(out, "{value:?}")?,
-                }
-            }
-            writeln!(out)?;
+/// Writes a row of values with their columns.
+pub(super) fn write_row<'a>(
+    out: &mut impl Write,
+    row: impl ExactSizeIterator<Item = (f64, &'a ColumnKind)>,
+) -> std::io::Result<()> {
+    let is_single = row.len() == 1;
+    for (number, (value, kind)) in row.enumerate() {
+        if number > 0 {
+            write!(out, ",")?;
         }
-        Ok(())
+        match kind.label(value) {
+            Some(label) => write!(out, "{}", csv_field(label))?,
+            // A single empty cell would be an empty line, which readers skip.
+            None if value.is_nan() && is_single => write!(out, "\"\"")?,
+            None if value.is_nan() => (),
+            None if kind.whole => write!(out, "{value}")?,
+            None => write!(out, "{value:?}")?,
+        }
     }
-
-    fn finish(mut self: Box<Self>) -> std::io::Result<()> {
-        self.out.flush()
-    }
+    writeln!(out)
 }

@@ -9,7 +9,7 @@ mod npy;
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{Cursor, Read, Seek, Write};
+use std::io::{BufWriter, Cursor, Read, Seek, Write};
 use std::path::Path;
 
 use apportion::files::read_opened;
@@ -141,17 +141,12 @@ pub trait RowReader {
     /// Returns the number of all columns.
     fn width(&self) -> usize;
 
-    /// Returns the columns that hold text, by their type, or by their first values.
+    /// Returns the columns that hold text, by their first values, each with a cell that is not a number.
     ///
     /// # Errors
     /// [`TableError`] if the file cannot be read.
-    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+    fn text_columns(&mut self) -> Result<Vec<(usize, String)>, TableError> {
         Ok(Vec::new())
-    }
-
-    /// Returns the first cell of a text column that is not a number, if the cells were examined.
-    fn text_example(&self, _place: usize) -> Option<String> {
-        None
     }
 
     /// Returns the line of the file, from 1, on which row number `row` of the last block ends; `None` without lines.
@@ -226,37 +221,49 @@ fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<d
     Ok(Box::new(csv_rows::CsvRows::new(all, options)?))
 }
 
-/// Writes a table block by block.
-pub trait RowWriter {
+/// A table that is written row by row.
+pub struct RowWriter<'a> {
+    format: Format,
+    out: BufWriter<&'a mut dyn Write>,
+    columns: Vec<ColumnKind>,
+}
+
+impl<'a> RowWriter<'a> {
+    /// Begins a table with these columns. NPY has the number of rows in its header.
+    ///
+    /// # Errors
+    /// Any error of the file system.
+    pub fn new(format: Format, out: &'a mut dyn Write, columns: Vec<ColumnKind>, rows: u64) -> std::io::Result<Self> {
+        let mut out = BufWriter::new(out);
+        match format {
+            Format::Csv => csv_rows::write_header(&mut out, &columns)?,
+            Format::Npy => npy::write_header(&mut out, rows, columns.len())?,
+        }
+        Ok(Self { format, out, columns })
+    }
+
     /// Writes rows: one slice for each column, all of one length.
     ///
     /// # Errors
     /// Any error of the file system.
-    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()>;
+    pub fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
+        for row in 0..columns.first().map_or(0, |column| column.len()) {
+            let values = columns.iter().map(|column| column[row]);
+            match self.format {
+                Format::Csv => csv_rows::write_row(&mut self.out, values.zip(&self.columns))?,
+                Format::Npy => values.into_iter().try_for_each(|value| self.out.write_all(&value.to_le_bytes()))?,
+            }
+        }
+        Ok(())
+    }
 
     /// Writes the remaining data.
     ///
     /// # Errors
     /// Any error of the file system.
-    fn finish(self: Box<Self>) -> std::io::Result<()>;
-}
-
-/// Creates a writer of `rows` rows of these columns to `out`. Numbers are read back as the same bits.
-///
-/// Labels are written as text in CSV, as their numbers in NPY; a missing value is an empty cell, or NaN.
-///
-/// # Errors
-/// Any error of the file system.
-pub fn row_writer<'a>(
-    format: Format,
-    out: &'a mut dyn Write,
-    columns: Vec<ColumnKind>,
-    rows: u64,
-) -> std::io::Result<Box<dyn RowWriter + 'a>> {
-    Ok(match format {
-        Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
-        Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
-    })
+    pub fn finish(mut self) -> std::io::Result<()> {
+        self.out.flush()
+    }
 }
 
 /// Expands the names of columns: `y[0..3]` means the columns `y[0]`, `y[1]` and `y[2]`.

@@ -3,9 +3,9 @@
 //! Written: version 1.0, little-endian doubles, two dimensions, C order. Read: versions 1 to 3, one or two dimensions,
 //! C or Fortran order, doubles, floats, integers and booleans of either byte order.
 
-use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 
-use super::{ColumnKind, ReadOptions, RowReader, RowWriter, expanded, names_of_columns};
+use super::{ColumnKind, ReadOptions, RowReader, expanded, names_of_columns};
 use crate::exchange::error::TableError;
 
 /// The first bytes of such a file.
@@ -191,35 +191,13 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
     }
 }
 
-pub(super) struct NpyWriter<'a> {
-    out: BufWriter<&'a mut dyn Write>,
-}
-
-impl<'a> NpyWriter<'a> {
-    pub(super) fn new(out: &'a mut dyn Write, (rows, width): (u64, usize)) -> std::io::Result<Self> {
-        let mut out = BufWriter::new(out);
-        let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {width}), }}");
-        let lead = MAGIC.len() + 4;
-        let padded = (lead + header.len() + 1).next_multiple_of(ALIGNMENT) - lead - 1;
-        out.write_all(MAGIC)?;
-        out.write_all(&[1, 0])?;
-        out.write_all(&(padded as u16 + 1).to_le_bytes())?;
-        writeln!(out, "{header:<padded$}")?;
-        Ok(Self { out })
-    }
-}
-
-impl RowWriter for NpyWriter<'_> {
-    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
-        for row in 0..columns.first().map_or(0, |column| column.len()) {
-            for column in columns {
-                self.out.write_all(&column[row].to_le_bytes())?;
-            }
-        }
-        Ok(())
-    }
-
-    fn finish(mut self: Box<Self>) -> std::io::Result<()> {
-        self.out.flush()
-    }
+/// Writes what precedes the numbers.
+pub(super) fn write_header(out: &mut impl Write, rows: u64, width: usize) -> std::io::Result<()> {
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {width}), }}");
+    let lead = MAGIC.len() + 4;
+    let padded = (lead + header.len() + 1).next_multiple_of(ALIGNMENT) - lead - 1;
+    out.write_all(MAGIC)?;
+    out.write_all(&[1, 0])?;
+    out.write_all(&(padded as u16 + 1).to_le_bytes())?;
+    writeln!(out, "{header:<padded$}")
 }

@@ -1,23 +1,25 @@
 //! `model = "command"`: the user's own program, its outputs, and how it receives rows.
 
-pub(super) mod file;
 mod runs;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use apportion::space::Space;
-pub(super) use file::{CommandKey, CommandSection};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::analysis::seconds;
-use super::at::ListOrTable;
+use super::at::{At, ListOrTable};
 use super::context::{Context, Fault, choice_if_said, wrong};
+use super::context::{Reach, folder, refuse_outside_of_run, resolve};
 use super::error::Problem;
+use super::key_schemas::names;
 use super::outputs::own_outputs;
-use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
-use super::sections::{At, Outputs};
+use super::sections::Outputs;
 use super::subjects::CommandSubject;
 use crate::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
 
@@ -166,4 +168,48 @@ fn whole(
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
     context.refuse(typed, key, &expected, typed.get_ref().to_string())
+}
+
+/// The program alone, or a table.
+pub type CommandKey = ListOrTable<Box<CommandSection>>;
+
+/// A program of your own as the model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [command]")]
+pub struct CommandSection {
+    /// The program and its arguments; no shell reads them.
+    #[schemars(length(min = 1))]
+    pub program: Option<At<Vec<At<String>>>>,
+    /// The format of rows and answers of a program that is kept alive.
+    #[schemars(extend("enum" = names(&Protocol::ALL, Protocol::name), "default" = "csv"))]
+    pub protocol: Option<At<String>>,
+    /// Number of processes at the same time; by default the number of cores.
+    #[schemars(range(min = 1, max = 1024))]
+    pub workers: Option<At<u64>>,
+    /// Time limit for a row, as in "60 s"; by default none.
+    pub timeout: Option<At<String>>,
+    /// How often a row is retried after the program crashed, hung or printed an invalid answer; once by default.
+    #[schemars(range(max = 100))]
+    pub retries: Option<At<u64>>,
+    /// Working directory of the program, relative to the study; by default the folder of the study.
+    pub directory: Option<At<String>>,
+    /// Environment variables that are set for the program.
+    #[serde(default)]
+    pub env: BTreeMap<String, String>,
+    /// Other files that its answers depend on, such as data, relative to the study: recorded answers from before a change of these
+    /// files are not reused. The program and files among its arguments are included; list what they import.
+    #[serde(default)]
+    pub depends_on: Vec<At<String>>,
+    /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
+    /// row, in its own directory.
+    pub template: Option<At<String>>,
+    /// Name of the input file in the directory of a run; by default that of the template.
+    pub input: Option<At<String>>,
+    /// Files that are copied to the directory of each run, relative to the study.
+    #[serde(default)]
+    pub files: Vec<At<String>>,
+    /// Whether paths in this table may lead outside the study's folder.
+    pub files_outside: Option<At<bool>>,
+    /// Folder that keeps the directories of runs, relative to the study; by default each is removed after its run.
+    pub keep: Option<At<String>>,
 }

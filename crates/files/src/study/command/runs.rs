@@ -7,12 +7,10 @@ use apportion::names::nearest;
 use apportion::space::Space;
 use apportion::study::did_you_mean;
 
-use super::file::{CommandKey, CommandSection};
-use super::{Context, Fault, existing, reach};
-use crate::study::at::At;
+use super::{At, CommandKey, CommandSection, Context, Fault, existing, reach};
+use crate::study::context::resolve;
 use crate::study::context::wrong;
 use crate::study::error::Problem;
-use crate::study::paths::resolve;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
 /// Names of files that the engine writes in the directory of a run.

@@ -64,7 +64,7 @@ fn of_others(term: &str) -> &'static [&'static str] {
 
 /// Suggests what `name` may mean where only `known` names are valid: the synonym in our words, or the nearest spelling.
 /// Two suggested names are joined by "and".
-pub(in crate::study) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub(super) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let known: Vec<&str> = known.into_iter().collect();
     let ours = of_others(&name.to_lowercase());
     let is_known = !ours.is_empty() && ours.iter().all(|name| known.contains(name));
