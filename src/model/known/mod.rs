@@ -35,6 +35,8 @@ pub use model::{known_inputs, known_model, known_output};
 use parameters::Given;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
+use crate::quantity::Domain;
+
 const ENTRIES: [&KnownAnswer; 17] = [
     &ishigami::ENTRY,
     &sobol_g::ENTRY,
@@ -106,8 +108,10 @@ impl KnownAnswer {
         }
         let mut given = Given::new(parameters);
         let Made { inputs, exact, value } = (self.build)(&mut given)?;
+        let domain = |(number, input): (usize, &KnownInput)| Some((number, input.domain?));
+        let domains = inputs.iter().enumerate().filter_map(domain).collect();
         let (inputs, parameters) = (inputs.into(), given.in_force.into());
-        Ok(KnownFunction { answer: self, inputs, parameters, exact: exact.into(), value: value.into() })
+        Ok(KnownFunction { answer: self, inputs, domains, parameters, exact: exact.into(), value: value.into() })
     }
 
     /// Returns the function with its default parameters.
@@ -122,19 +126,17 @@ impl KnownAnswer {
 /// A function with its parameters chosen. Cheap to clone.
 #[derive(Clone)]
 pub struct KnownFunction {
-    answer: &'static KnownAnswer,
+    /// Its entry in the list.
+    pub answer: &'static KnownAnswer,
     inputs: Arc<[KnownInput]>,
+    /// Those of the inputs that have one.
+    domains: Arc<[(usize, Domain)]>,
     parameters: Arc<[(&'static str, ParameterValue)]>,
     exact: Arc<Exact>,
     value: Arc<Value>,
 }
 
 impl KnownFunction {
-    /// Returns its entry in the list.
-    pub fn answer(&self) -> &'static KnownAnswer {
-        self.answer
-    }
-
     /// Returns the inputs in order, each with the distribution for which the exact indices hold.
     pub fn inputs(&self) -> &[KnownInput] {
         &self.inputs
@@ -155,8 +157,8 @@ impl KnownFunction {
     /// # Errors
     /// Why there is none, if the function can tell.
     pub fn checked_value(&self, x: &[f64]) -> Result<f64, &'static str> {
-        let is_outside = |(input, x): (&KnownInput, &f64)| input.domain.is_some_and(|domain| !domain.contains(*x));
-        if self.inputs.iter().zip(x).any(is_outside) { Err("an input is not positive") } else { (self.value)(x) }
+        let is_outside = |(input, domain): &(usize, Domain)| !domain.contains(x[*input]);
+        if self.domains.iter().any(is_outside) { Err("an input is not positive") } else { (self.value)(x) }
     }
 
     /// Returns mean, variance and indices for independent inputs with their own distributions.

@@ -19,8 +19,7 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
             factors.iter().zip(x).for_each(|(input, value)| all[*input] = *value);
         }
         let x = if drives_all { x } else { &all };
-        y[0] = function.checked_value(x).map_err(RowFailure::new)?;
-        Ok(())
+        function.checked_value(x).map(|value| y[0] = value).map_err(RowFailure::new)
     })
 }
 

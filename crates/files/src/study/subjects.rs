@@ -111,7 +111,7 @@ impl Subject for CommandSubject {
 
 impl Subject for KnownSubject {
     fn name(&self) -> &'static str {
-        self.function.answer().name
+        self.function.answer.name
     }
 
     fn model(&self, space: &Space) -> Arc<dyn Model> {
