@@ -15,8 +15,7 @@ use session::{LONGEST, Lookup, Rows, Session};
 
 use super::process::{Event, Process};
 use super::program::ended_in_words;
-use super::protocol::RowWriter;
-use super::protocol::{is_answer_without_number, parse_answer};
+use super::protocol::{RowWriter, is_answer_without_number, parse_answer};
 use super::{CommandModel, Protocol, State};
 
 /// Number of bytes of rows that are written at once.

@@ -6,8 +6,7 @@ use apportion::space::distribution::MeasuredFile;
 use apportion::space::{CorrelationMeasure, Dependence, Space};
 
 use super::analysis::place;
-use super::context::{Context, Fault, choice, unknown_name, wrong};
-use super::context::{Reach, resolve};
+use super::context::{Context, Fault, Reach, choice, resolve, unknown_name, wrong};
 use super::error::Problem;
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::exchange::{ColumnKind, ReadOptions, number, table_of_bytes};

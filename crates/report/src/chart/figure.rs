@@ -3,11 +3,9 @@
 use std::fmt::Display;
 
 use super::model::{Bar, Chart, Mark, Panel, Shape, Stroke};
-use super::style::Colour;
-use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
+use super::style::{BODY, Colour, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Attributes, Canvas, Px, Text, stripes};
-use super::text::FAMILIES;
-use super::text::{percent, wrap, wrap_within};
+use super::text::{FAMILIES, percent, wrap, wrap_within};
 
 /// Gap between a key and its name, px.
 const KEY_GAP: f64 = 6.0;

@@ -1,7 +1,6 @@
 //! The positions and scales of the panels of a chart.
 
-use super::model::Bar;
-use super::model::{Arrangement, Chart, Mark, Panel, Shape, Tile};
+use super::model::{Arrangement, Bar, Chart, Mark, Panel, Shape, Tile};
 use super::plot::{TICK_GAP, tick_room, title_room};
 use super::scale::{Scale, ScaleOptions};
 use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};

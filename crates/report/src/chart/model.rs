@@ -1,8 +1,7 @@
 //! The data of a chart: panels of marks on axes, bars, and the appearance of series.
 
 use super::scale::Spacing;
-use super::style::Colour;
-use super::style::drawable;
+use super::style::{Colour, drawable};
 use super::text::{percent, power_of_ten};
 
 /// A chart: headline, caption, and panels of marks.

@@ -2,12 +2,9 @@
 
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name};
-use super::model::Bar;
-use super::model::Series;
-use super::model::{Mark, Panel, Shape};
+use super::model::{Bar, Mark, Panel, Series, Shape};
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
-use super::svg::{Anchor, Canvas, Px, Text};
-use super::svg::{HALF_DIAMOND, stripes};
+use super::svg::{Anchor, Canvas, HALF_DIAMOND, Px, Text, stripes};
 use super::text::shorten;
 
 /// Gap between two cells of a map, px.

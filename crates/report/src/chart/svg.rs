@@ -6,8 +6,7 @@ use std::fmt::{Display, Formatter, Result, Write};
 use apportion::text::symbol;
 
 use super::model::Stroke;
-use super::style::{Colour, DOTS_OPACITY};
-use super::style::{INK, PAPER};
+use super::style::{Colour, DOTS_OPACITY, INK, PAPER};
 use super::text::{Face, Weight};
 use crate::format::split_word;
 

@@ -2,8 +2,7 @@
 
 use askama::Template;
 
-use super::symbols::href;
-use super::symbols::{clean, escaped, symbols};
+use super::symbols::{clean, escaped, href, symbols};
 use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
 use crate::chart::ChartWidth;
 use crate::file_names::{CHARTS, ChartFormat};

@@ -14,7 +14,8 @@ const BITS: usize = 320;
 const WIDE: usize = 2 * BITS;
 /// Exponent of x below which exp(x) - 1 and ln(1 + x) equal x to all bits.
 const TINY: i32 = -(BITS as i32);
-/// Exponent of an angle from which on its turns leave no digit of it, and of a power from which on it takes minutes.
+/// Binary exponent above which a rounded angle has too few digits left within its turn, and one above which a power takes
+/// minutes.
 const MAX_EXPONENT_OF_ANGLE: i32 = BITS as i32 - 64;
 const MAX_EXPONENT_OF_POWER: i32 = 40;
 /// Number of evaluations in doubles, each rounded differently.

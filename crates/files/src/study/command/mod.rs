@@ -14,8 +14,7 @@ use serde_json::{Value, json};
 
 use super::analysis::seconds;
 use super::at::{At, ListOrTable};
-use super::context::{Context, Fault, choice_if_said, wrong};
-use super::context::{Reach, folder, refuse_outside_of_run, resolve};
+use super::context::{Context, Fault, Reach, choice_if_said, folder, refuse_outside_of_run, resolve, wrong};
 use super::error::Problem;
 use super::key_schemas::names;
 use super::outputs::own_outputs;

@@ -8,8 +8,7 @@ use apportion::space::Space;
 use apportion::study::did_you_mean;
 
 use super::{At, CommandKey, CommandSection, Context, Fault, existing, reach};
-use crate::study::context::resolve;
-use crate::study::context::wrong;
+use crate::study::context::{resolve, wrong};
 use crate::study::error::Problem;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
