@@ -13,6 +13,8 @@ mod labels;
 mod layout;
 mod model;
 mod path;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
@@ -22,13 +24,10 @@ mod style;
 mod svg;
 mod text;
 
-pub use model::Bar;
-pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
-pub use model::{Series, Stroke};
+pub use model::{Arrangement, Axis, Bar, Chart, Mark, Panel, Point, Series, Shape, Stroke, Tile};
 #[cfg(feature = "pdf")]
-pub use png::pdf;
+pub use pdf::pdf;
 #[cfg(feature = "png")]
 pub use png::{PictureError, png};
 pub use scale::Spacing;
-pub use style::Colour;
-pub use style::{ChartWidth, PaperWidth};
+pub use style::{ChartWidth, Colour, PaperWidth};

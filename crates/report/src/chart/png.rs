@@ -1,11 +1,10 @@
-//! SVG to PNG with the embedded faces, the same picture on every machine; and to PDF, as vectors and text.
+//! SVG to PNG with the embedded faces, the same picture on every machine.
 
 use std::sync::{Arc, LazyLock};
 
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, Options, Tree, fontdb, roxmltree};
-use svg2pdf::{ConversionOptions, PageOptions, to_pdf};
 use thiserror::Error;
 
 use super::text::{BOLD, FAMILY, REGULAR};
@@ -109,23 +108,4 @@ fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     }
     encoder.write_header()?.write_image_data(&colours)?;
     Ok(file)
-}
-
-/// Converts an SVG chart of this crate to a PDF of one page of the size of the picture: 72 points are 96 px, or the
-/// millimetres that the SVG gives. Marks are vectors; texts can be searched and copied, in subsets of the embedded
-/// faces.
-///
-/// # Errors
-/// [`PictureError`] if the text is not an SVG, or holds something that cannot be drawn on a page.
-///
-/// # Example
-/// ```
-/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><path d="M0 0L96 48" stroke="black"/></svg>"#;
-/// let pdf = apportion_report::chart::pdf(svg)?;
-/// assert!(pdf.starts_with(b"%PDF-1."));
-/// # Ok::<(), apportion_report::chart::PictureError>(())
-/// ```
-pub fn pdf(svg: &str) -> Result<Vec<u8>, PictureError> {
-    let tree = Tree::from_str(svg, &options())?;
-    to_pdf(&tree, ConversionOptions::default(), PageOptions { dpi: CSS_DPI as f32 }).map_err(PictureError::Pdf)
 }
