@@ -11,6 +11,7 @@
 //!
 //! | crate | what it adds |
 //! |---|---|
+//! | `apportion-base` | what all share: names, text, physical quantities, sums |
 //! | `apportion-afm` | the force with which an AFM tip pushes a nanoparticle: contact, friction, a ladder of fidelities |
 //! | `apportion-files` | studies in TOML, programs in any language as models, points and outputs as tables |
 //! | `apportion-report` | results as text, tables, charts and pages |
@@ -53,29 +54,22 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod analysis;
-pub mod clock;
 pub mod design;
-pub mod digest;
 pub mod estimate;
-pub mod files;
 pub mod given;
 pub mod model;
-pub mod names;
-pub mod quantity;
 pub mod result;
 pub mod run;
 mod runner;
 pub mod salib;
 pub mod screening;
 pub mod space;
-pub mod special;
 pub mod study;
-pub mod sum;
 pub mod surrogate;
 pub mod sweep;
-pub mod text;
 pub mod uncertainty;
 
+pub use apportion_base::quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
@@ -83,7 +77,6 @@ pub use model::{
     GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
     SeriesAxis, SeriesError, Worker, function_model,
 };
-pub use quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
 pub use result::{LookupError, OutputResult, StudyResult, Warning};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, RunError, Shard, ShardError};
 pub use runner::{Requests, Resume, Runner, WorkerStudy};

@@ -13,13 +13,13 @@ use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
 use crate::model::{Output, RowFailure};
-use crate::quantity::Unit;
 use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
 use crate::uncertainty::{
     Estimate, IntervalOptions, KeptPoints, OutputMoments, output_indices, output_moments, stages,
 };
+use apportion_base::quantity::Unit;
 
 /// Why an output has no indices.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]

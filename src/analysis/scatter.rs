@@ -2,10 +2,10 @@
 
 use super::first_rows::FirstRows;
 use crate::design::Design;
-use crate::quantity::Unit;
 use crate::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
 use crate::space::{Distribution, Factor, Space};
-use crate::sum::{centred_product, mean, rescaled};
+use apportion_base::quantity::Unit;
+use apportion_base::sum::{centred_product, mean, rescaled};
 
 /// Number of factors.
 const FACTORS: usize = 6;

@@ -2,10 +2,10 @@
 
 use crate::design::Design;
 use crate::model::Output;
-use crate::quantity::Unlikely;
 use crate::result::Warning;
 use crate::run::{Piece, Store};
 use crate::study::Study;
+use apportion_base::quantity::Unlikely;
 
 /// Returns for each output of `study` a sentence on the unlikely value among those in `store`, if there is one.
 pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {

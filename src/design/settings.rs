@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::names::named;
+use apportion_base::names::named;
 
 named! {
 /// Where the points of a design come from.

@@ -1,6 +1,6 @@
 //! Moments of the rows A and B, shared by those of every swap.
 
-use crate::sum::{centred_product, mean};
+use apportion_base::sum::{centred_product, mean};
 
 /// Means and sums of centred products of y_A and y_B over some base points.
 ///

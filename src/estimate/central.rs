@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-use crate::sum::{mean, range, sums_by};
+use apportion_base::sum::{mean, range, sums_by};
 
 /// Count, mean, range, and sums of the second to fourth powers of the deviations from the mean, of single outputs.
 ///

@@ -1,7 +1,7 @@
 //! Estimators as named in study files.
 
 use super::of_one_index::{FirstOrder, Total};
-use crate::names::named;
+use apportion_base::names::named;
 
 named! {
 /// An estimator named in study files: a paper's estimators of first-order and total indices. Variants have both unless

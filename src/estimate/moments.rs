@@ -4,7 +4,7 @@ use super::base_moments::BaseMoments;
 use super::pair_moments::PairMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
-use crate::sum;
+use apportion_base::sum;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///

@@ -2,7 +2,7 @@
 
 use super::formula::{correlation, difference, double, product};
 use super::{Moments, SwapMoments};
-use crate::names::named;
+use apportion_base::names::named;
 
 /// Declares an enum of estimators: a doc line, the name in results, the formula on the sums of a swap, and its source.
 macro_rules! estimators {

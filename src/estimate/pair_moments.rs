@@ -1,7 +1,7 @@
 //! The means used to compute second-order indices.
 
 use super::workspace::{Workspace, difference};
-use crate::sum::centred_product;
+use apportion_base::sum::centred_product;
 
 /// Means of E_j D_k over the ordered pairs j != k of the paired swaps, with D = y_AB - y_A and E = y_BA - y_B.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Second-order indices: the joint effect of two factors beyond their individual effects.
 
 use super::{Moments, SwapMoments};
-use crate::names::named;
+use apportion_base::names::named;
 
 named! {
 /// An estimator of second-order indices, the default first. Both need the rows BA and the sums of pairs.

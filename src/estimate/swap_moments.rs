@@ -2,7 +2,7 @@
 
 use super::base_moments::{BaseMoments, Shift};
 use super::workspace::{Workspace, difference};
-use crate::sum::{centred_product, centred_products, mean};
+use apportion_base::sum::{centred_product, centred_products, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
 /// an output.

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::order::{Order, Partition};
-use crate::sum::rescaled;
 use crate::uncertainty::{Estimate, Interval, LEVEL};
+use apportion_base::sum::rescaled;
 
 /// Minimum number of rows of a bin with a slope.
 const MIN_ROWS_OF_LINE: f64 = 4.0;

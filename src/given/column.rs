@@ -5,8 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::sum;
-use crate::text::cut;
+use apportion_base::sum;
+use apportion_base::text::cut;
 
 /// A named column of a table.
 #[derive(Debug, Clone, PartialEq)]

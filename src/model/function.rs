@@ -1,7 +1,7 @@
 //! Functions of the program that uses the library, as models.
 
 use super::{Batch, Model, Output, OutputSeries, RowFailure, RunContext, SeriesAxis, Worker};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// A Rust function as a model.
 ///

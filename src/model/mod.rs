@@ -27,8 +27,8 @@ pub use known::{
 pub use repeated::RepeatedModel;
 pub use series::{MAX_SERIES_VALUES, OutputSeries, SeriesAxis, SeriesError, item_of_list, items_of_header};
 
-use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
+use apportion_base::quantity::{Domain, Unit};
 
 /// Minimum number of outputs that are shown together: an overview instead of files for each.
 pub const MIN_OUTPUTS_TOGETHER: usize = 12;

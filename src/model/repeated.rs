@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{Batch, Counter, Flag, Model, Output, RunContext, Worker};
-use crate::quantity::Unit;
 use crate::space::distribution::{mixed, seed_of};
+use apportion_base::quantity::Unit;
 
 /// The mean and the variance of the outputs of a stochastic model over several runs of each row, with different seeds.
 ///

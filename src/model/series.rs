@@ -5,7 +5,7 @@ use std::ops::Range;
 use thiserror::Error;
 
 use super::Output;
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Maximum number of values of a series: each is an output, with its own sums.
 pub const MAX_SERIES_VALUES: usize = 10_000;

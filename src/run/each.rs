@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::growing::thread_pool;
 use super::tracker::Tracker;
 use super::{Progress, RunError};
-use crate::clock::Instant;
 use crate::model::{GiveUp, Model, RunContext, Worker};
+use apportion_base::clock::Instant;
 
 /// Calls `evaluate` for every number below `count` with a worker of `model`, on `threads` threads (0: one per core) in
 /// the run of `context`; returns the results in order.

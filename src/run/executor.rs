@@ -13,8 +13,8 @@ use super::remote::{DesignKey, Remote, Reply, Request};
 use super::rows::{MissingRows, RowValues};
 use super::tracker::Tracker;
 use super::{Progress, RunError, threads_in_force};
-use crate::clock::Instant;
 use crate::model::{Batch, Model, RunContext, Worker};
+use apportion_base::clock::Instant;
 
 /// Target time of a batch of rows: short enough to lose little and to share rows evenly, long enough for a journal
 /// record.

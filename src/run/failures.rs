@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::design::Design;
 use crate::model::RowFailure;
-use crate::text::masked;
+use apportion_base::text::masked;
 
 /// The place of a row in a design, independent of the number of base points. Places are ordered as rows are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

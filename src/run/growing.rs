@@ -11,9 +11,9 @@ use super::remote::Remote;
 use super::rows::MissingRows;
 use super::tracker::Tracker;
 use super::{FailurePolicy, Job, MAX_STORED_BYTES, OutputSink, Progress, RunError, Store, Totals, threads_in_force};
-use crate::clock::Instant;
 use crate::design::Design;
 use crate::model::RunContext;
+use apportion_base::clock::Instant;
 
 /// A run that can be extended: every replicate has the same number of base points, and can grow.
 ///

@@ -47,8 +47,8 @@ pub use totals::{OutputTotals, SAMPLE, Totals};
 
 use crate::design::Design;
 use crate::model::{Model, RunContext};
-use crate::names::named;
 use crate::space::Space;
+use apportion_base::names::named;
 
 /// Base points in a block: their columns fit in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;

@@ -7,8 +7,8 @@ use thiserror::Error;
 use super::executor::{Executor, RowRange, RowSource};
 use super::rows::RowValues;
 use super::{Progress, RunError};
-use crate::clock::Instant;
 use crate::model::{Batch, GiveUp, Model, RunContext};
+use apportion_base::clock::Instant;
 
 /// Why rows were not all evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

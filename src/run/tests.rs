@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::*;
 use crate::design::{DesignSettings, Rows, Sampler};
 use crate::model::{Batch, Output, RowFailure, Worker};
-use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
+use apportion_base::quantity::Unit;
 
 /// x0 + 2 x1, failing where x0 > 0.75 if `fails`.
 struct Sum {

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::{Progress, RunError};
-use crate::clock::Instant;
 use crate::model::RunContext;
+use apportion_base::clock::Instant;
 
 /// The finished rows of a run, counted by its threads.
 pub(super) struct Tracker<'r> {

@@ -3,12 +3,12 @@
 use super::Runner;
 use super::low_fidelity::LowRun;
 use crate::analysis::{StopReason, Stopped, enough_base_samples, interval_options, rare_levels, surrogates};
-use crate::clock::Instant;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
 use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
+use apportion_base::clock::Instant;
 
 /// Base samples below which missing intervals predict nothing about those of more runs: an output that is 0 except
 /// rarely may not vary in a net of few points.

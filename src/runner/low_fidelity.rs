@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::journal::{self, RunJournal};
 use super::{Resume, Runner};
 use crate::analysis::{LowTotals, outputs_kept};
-use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Model, RunContext};
 use crate::run::journal::with_ending;
@@ -14,6 +13,7 @@ use crate::run::{GrowingRun, Job, OutputSink as _, RunError};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
 use crate::surrogate::low_fidelity::OwnOutputs;
+use apportion_base::clock::Instant;
 
 /// Combined with the seed of the model's design, it seeds the own points of low-fidelity models unlike any user does.
 const OWN_SEED: u64 = 0x6c6f_7720_6669_6465;
@@ -73,7 +73,7 @@ impl LowStudy {
                 None => RunJournal::none(&of_low),
                 Some(path) => {
                     let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
-                    let path = sibling_path(path, &format!("{}-{kind}", crate::names::file_part(&low.name)));
+                    let path = sibling_path(path, &format!("{}-{kind}", apportion_base::names::file_part(&low.name)));
                     let part = Runner { study: &of_low, resume, ..runner.clone() };
                     journal::open(&part, &path, None, context.messages())?
                 }

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::digest::Sha256;
 use crate::study::Study;
+use apportion_base::digest::Sha256;
 
 /// Returns the digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
 pub(super) fn digests(study: &Study) -> Value {

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::clock::Instant;
 use crate::design::Design;
 use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
 use crate::run::{DesignKey, Reply, Request, RowValues, answered};
 use crate::study::Study;
+use apportion_base::clock::Instant;
 
 /// The source of requests and the receiver of replies.
 pub trait Requests {

@@ -1,7 +1,7 @@
 //! The rows of a table made by SALib, and checks of their order.
 
 use super::SalibError;
-use crate::quantity::is_same;
+use apportion_base::quantity::is_same;
 
 /// The rows of a base point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

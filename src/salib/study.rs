@@ -6,11 +6,11 @@ use super::{SalibLayout, SalibProblem};
 use crate::design::{Design, RowKind, Sampler};
 use crate::given::Column;
 use crate::model::{FunctionModel, Output, RowFailure};
-use crate::quantity::Unit;
 use crate::run::{Piece, Store};
 use crate::space::Distribution;
 use crate::study::{AnalysisOptions, BuildError, ExternalSubject, Study, SurrogateChoice};
 use crate::uncertainty::IntervalMethod;
+use apportion_base::quantity::Unit;
 
 /// Returns the study called `name` of an external model with these outputs, in SALib's order, and its runs: a
 /// [`Runner`](crate::Runner) with that [store](crate::Runner::store) computes indices by SALib's formulas, with

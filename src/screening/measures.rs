@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::sum::{centred_product, mean};
 use crate::uncertainty::{Estimate, jackknife};
+use apportion_base::sum::{centred_product, mean};
 
 /// A factor could be fixed if the upper bound of mu* is below this part of the largest mu*.
 pub const FIXABLE: f64 = 0.05;

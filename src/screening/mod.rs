@@ -32,10 +32,10 @@ pub use settings::{
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
-use crate::quantity::Unlikely;
 use crate::run::Progress;
 use crate::space::{Factor, Space};
 use crate::uncertainty::Estimate;
+use apportion_base::quantity::Unlikely;
 
 /// The work of a screening.
 #[derive(Clone, Copy)]

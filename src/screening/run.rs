@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
-use crate::clock::Instant;
 use crate::model::{Batch, RowFailure, RunContext};
 use crate::run::{Halt, Progress, RunError, TableRun, failed_rows};
 use crate::space::Factor;
+use apportion_base::clock::Instant;
 
 /// The results of some trajectories.
 #[derive(Debug, Default)]

@@ -6,8 +6,8 @@ use super::points::Trajectories;
 use super::*;
 use crate::design::{DesignError, Sampler};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
-use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
+use apportion_base::quantity::Unit;
 
 /// A closure as a model of one output; a row without an answer fails.
 struct Function<F> {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::distribution::{LARGEST_U, SMALLEST_U};
-use crate::special::{normal_below, normal_quantile};
+use apportion_base::special::{normal_below, normal_quantile};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
 ///

@@ -8,8 +8,8 @@ use nataf::of_normal_scores;
 use super::copula::GaussianCopula;
 use super::distribution::Distribution;
 use super::{Factor, Space};
-use crate::names::named;
-use crate::special::normal_quantile;
+use apportion_base::names::named;
+use apportion_base::special::normal_quantile;
 
 /// Why factors cannot depend on each other as stated, and what is allowed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -15,8 +15,8 @@ pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
 use serde::{Deserialize, Serialize};
 
-use crate::names::named;
-use crate::quantity::Unit;
+use apportion_base::names::named;
+use apportion_base::quantity::Unit;
 
 named! {
 /// What has indices of its own.

@@ -19,7 +19,7 @@ pub enum BuildError {
         found: String,
     },
     /// A name that is too long for tables and files, or contains invisible characters.
-    #[error("{what} {}: expected {expected}", crate::names::shown(.name))]
+    #[error("{what} {}: expected {expected}", apportion_base::names::shown(.name))]
     Name {
         /// What the name is of.
         what: &'static str,

@@ -7,12 +7,12 @@ use super::rules::{self, Length, wrong};
 use super::subject::{CustomSubject, LowFidelity, Subject};
 use super::{AnalysisOptions, BuildError, Study, StudySource, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
-use crate::digest::sha256;
 use crate::model::Model;
-use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
 use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
+use apportion_base::digest::sha256;
+use apportion_base::quantity::Unit;
 
 /// A builder of studies, created by [`Study::builder`].
 #[must_use]

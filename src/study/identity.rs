@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Study;
 use crate::design::{Sampler, Swap};
-use crate::digest::sha256;
+use apportion_base::digest::sha256;
 
 impl Study {
     /// Returns all that the outputs of the runs depend on, as JSON: the model with its choices and constants, the

@@ -20,10 +20,10 @@ pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::Model;
-pub use crate::names::nearest;
 use crate::space::Space;
 use crate::surrogate::fewest_points;
 use crate::uncertainty::{Layout, NoiseLayout};
+pub use apportion_base::names::nearest;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]

@@ -5,12 +5,12 @@ use std::ops::RangeInclusive;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, proper_subsets};
 use crate::given::Measure;
-use crate::names::named;
 use crate::result::Warning;
 use crate::run::FailurePolicy;
 use crate::space::{Group, IndicesOf, Space};
 use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
+use apportion_base::names::named;
 
 /// What to estimate from the runs.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,9 +7,9 @@ use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
 use crate::model::{Model, OutputSeries};
-use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::space::{Factor, Group, IndicesOf, Space};
 use crate::uncertainty::IntervalMethod;
+use apportion_base::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
 
 /// Returns an error for a value that `key` cannot have.
 pub(super) fn wrong<T>(key: &'static str, expected: impl Into<String>, found: impl ToString) -> Result<T, BuildError> {

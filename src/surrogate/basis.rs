@@ -3,7 +3,7 @@
 use super::knots::Knotted;
 use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
-use crate::special::normal_quantile;
+use apportion_base::special::normal_quantile;
 
 /// Maximum number of factors in a term of the first candidates.
 const MAX_FACTORS: usize = 3;

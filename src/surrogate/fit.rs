@@ -4,7 +4,7 @@ use super::basis::{Term, first_terms, neighbours};
 use super::carried::Carried;
 use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
-use crate::sum::product;
+use apportion_base::sum::product;
 
 /// Maximum number of terms of a surrogate.
 const MAX_TERMS: usize = 150;

@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-use crate::sum::product;
+use apportion_base::sum::product;
 
 /// Rows whose products are summed before they are added to the total: two panels of them fit into a cache.
 const CHUNK: usize = 256;

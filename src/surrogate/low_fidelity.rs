@@ -157,7 +157,7 @@ fn stand_in(expensive: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> Stand
         of_others.flat_map(|(_, net)| net.outputs.iter().flatten().copied()).collect()
     };
     let (f, g) = (others(expensive), others(cheap));
-    let (mean_f, mean_g) = (crate::sum::mean(&f), crate::sum::mean(&g));
+    let (mean_f, mean_g) = (apportion_base::sum::mean(&f), apportion_base::sum::mean(&g));
     let square: f64 = g.iter().map(|g| (g - mean_g).powi(2)).sum();
     let product: f64 = f.iter().zip(&g).map(|(f, g)| (f - mean_f) * (g - mean_g)).sum();
     let slope = if square > 0.0 { product / square } else { 0.0 };

@@ -270,7 +270,7 @@ fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) 
 
 /// Returns the mean and standard deviation; `None` if all values are equal, or there are none.
 fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
-    let mean = crate::sum::mean(values);
+    let mean = apportion_base::sum::mean(values);
     let size = values.iter().fold(0.0, |largest: f64, y| largest.max((y - mean).abs()));
     // In units of the largest deviation, so that squares neither underflow nor overflow.
     let square = |y: &f64| ((y - mean) / size).powi(2);

@@ -3,7 +3,7 @@
 use super::estimates::ErrorKind;
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
-use crate::names::named;
+use apportion_base::names::named;
 
 named! {
 /// How the error of an estimate is computed.

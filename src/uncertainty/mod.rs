@@ -43,7 +43,7 @@ pub use ranks::{probability_above, probability_first};
 use serde::{Deserialize, Serialize};
 pub use surrogate_use::{ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateTerm, SurrogateUse};
 
-use crate::special::t_quantile_outside;
+use apportion_base::special::t_quantile_outside;
 
 /// Confidence level of every interval.
 pub const LEVEL: f64 = 0.95;

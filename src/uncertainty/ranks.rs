@@ -6,7 +6,7 @@ use rand_distr::{ChiSquared, Distribution, StandardNormal};
 
 use super::net_decay::{PartInfluences, StandardError};
 use super::{Estimate, NORMAL_QUANTILE, t_quantile};
-use crate::special::t_above;
+use apportion_base::special::t_above;
 
 /// Number of draws for each probability: its own error is then below 0.008.
 const DRAWS: usize = 4096;

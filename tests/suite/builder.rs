@@ -5,12 +5,12 @@ use std::path::Path;
 use apportion::design::{DesignError, Sampler};
 use apportion::estimate::Estimator;
 use apportion::model::{FunctionModel, Output, function_model};
-use apportion::quantity::Unit;
 use apportion::result::parse_result;
 use apportion::space::{Distribution, Factor};
 use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
 use apportion::uncertainty::IntervalMethod;
 use apportion::{Resume, RunError, Shard};
+use apportion_base::quantity::Unit;
 
 fn unit() -> Distribution {
     Distribution::uniform(0.0, 1.0).unwrap()

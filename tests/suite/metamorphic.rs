@@ -2,10 +2,10 @@
 
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
-use apportion::quantity::Unit;
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
 use apportion::uncertainty::{Estimate, IntervalMethod, IntervalOptions, Layout, OutputIndices, output_indices};
+use apportion_base::quantity::Unit;
 use proptest::prelude::*;
 
 use crate::common::{analysed, apportion, gap, numbers, study_path};

@@ -1,6 +1,6 @@
 //! Why a scene has no critical force.
 
-use apportion::quantity::Domain;
+use apportion_base::quantity::Domain;
 
 /// The reason a quantity could not be computed. Carries no input values, so that equal reasons
 /// compare equal and can be counted over a sample.

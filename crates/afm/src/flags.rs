@@ -1,6 +1,6 @@
 //! Validity flags: a result exists, but an assumption behind it is violated.
 
-use apportion::names::named;
+use apportion_base::names::named;
 
 named! {
     /// A violated assumption.

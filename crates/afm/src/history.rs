@@ -7,7 +7,7 @@
 //! friction is not followed: at V it is (V/v_s)^2 of the force for the Stribeck curves, but not small for
 //! Lemaitre-Carlson, whose layer sticks and slips.
 
-use apportion::quantity::Domain;
+use apportion_base::quantity::Domain;
 
 use super::contact::{Contact, Pair};
 use super::force::{Presliding, Statics, Substrate};

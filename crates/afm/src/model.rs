@@ -9,7 +9,7 @@ use apportion::model::{
     Batch, Choice, Counter, CounterKind, EVALUATIONS, Flag, Input, LARGEST_ERROR, Model, Output, OutputSeries, RUNGS,
     RowFailure, RunContext, Worker,
 };
-use apportion::quantity::Unit;
+use apportion_base::quantity::Unit;
 use history::Histories;
 pub use history::{AfmHistory, AfmMoments};
 pub use output::AfmOutput;

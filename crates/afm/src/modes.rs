@@ -9,8 +9,8 @@
 
 use std::f64::consts::PI;
 
-use apportion::names::named;
-use apportion::quantity::Domain;
+use apportion_base::names::named;
+use apportion_base::quantity::Domain;
 
 use super::contact::{Contact, Pair};
 use super::{ContactTheory, Failure, Scene};

@@ -1,6 +1,6 @@
 //! The fields of a [`Scene`] by name, and the check that each is in its domain.
 
-use apportion::quantity::Domain;
+use apportion_base::quantity::Domain;
 
 use super::{Failure, Scene};
 

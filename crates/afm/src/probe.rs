@@ -1,6 +1,6 @@
 //! The cantilever and its tip: stiffnesses and preload.
 
-use apportion::names::named;
+use apportion_base::names::named;
 
 use super::Scene;
 

@@ -1,6 +1,6 @@
 //! Every constant of the problem, each with its default, symbol, unit, physical domain and description.
 
-use apportion::quantity::Domain;
+use apportion_base::quantity::Domain;
 
 use super::Parameter;
 

@@ -1,7 +1,7 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell for a missing value.
 
-use apportion::text::inert;
 use apportion::uncertainty::Estimate;
+use apportion_base::text::inert;
 
 /// The cells of a value in a file: one, or three of an estimate and the bounds of its interval.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use apportion::names::{file_part, named};
+use apportion_base::names::{file_part, named};
 
 /// The folder of the charts, below that of the page.
 pub(super) const CHARTS: &str = "charts";

@@ -3,8 +3,8 @@
 mod estimates;
 mod units;
 
-use apportion::text::symbol;
 use apportion::uncertainty::Estimate;
+use apportion_base::text::symbol;
 pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
 pub use units::unit;
 

@@ -1,9 +1,9 @@
 //! Which factor leads, as far as the intervals show, and how wide these are.
 
 use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult};
-use apportion::special::normal_quantile;
-use apportion::text::listed;
 use apportion::uncertainty::{Estimate, Interval, LEVEL};
+use apportion_base::special::normal_quantile;
+use apportion_base::text::listed;
 
 use super::format::{chance, count, index, name, printed_half_width};
 

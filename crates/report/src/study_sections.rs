@@ -2,7 +2,7 @@
 //! study.
 
 use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, StudyResult, ValidityRecord};
-use apportion::text::listed;
+use apportion_base::text::listed;
 use serde_json::{Map, Value};
 
 use super::document::{Cell, Mark, Part, Section, Table};

@@ -1,7 +1,7 @@
 use super::*;
 use crate::design::{DesignSettings, Rows};
-use crate::quantity::Unit;
 use crate::space::Factor;
+use apportion_base::quantity::Unit;
 
 fn found(law: Distribution, base_samples: u64) -> Vec<RareLevel> {
     let factor = Factor::new("d", Unit::dimensionless(), law).unwrap();

@@ -18,7 +18,7 @@ fn two_groups_by_hand() {
 /// y = 3 a + b, log-normal a and b: means of bins find 0.75 instead of 0.9, in a table of a thousand rows.
 #[test]
 fn variation_within_a_bin_is_included() {
-    let quantile = |u: f64| libm::exp(crate::special::normal_quantile(u));
+    let quantile = |u: f64| libm::exp(apportion_base::special::normal_quantile(u));
     let a: Vec<f64> = (0..1000).map(|k| quantile((f64::from(k) + 0.5) / 1000.0)).collect();
     let y: Vec<f64> =
         (0..1000).map(|k| 3.0 * a[k as usize] + quantile((f64::from(k * 371 % 1000) + 0.5) / 1000.0)).collect();

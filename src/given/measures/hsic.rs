@@ -24,8 +24,8 @@ impl Kernel {
             return None;
         }
         let count = values.len() as f64;
-        let scaled = crate::sum::rescaled(values).0;
-        let mean = crate::sum::mean(&scaled);
+        let scaled = apportion_base::sum::rescaled(values).0;
+        let mean = apportion_base::sum::mean(&scaled);
         let sd = (scaled.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
         let x: Vec<f64> = scaled.iter().map(|x| (x - mean) / sd).collect();
         let row = |a: &f64| x.iter().map(|b| kernel(*a, *b)).sum::<f64>() / count;

@@ -21,8 +21,8 @@ use serde::{Deserialize, Serialize};
 use super::column::{Column, NoVariance};
 use super::order::{Order, Partition};
 use super::{GivenIndices, PointSet, centred, shuffle};
-use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
+use apportion_base::names::named;
 
 named! {
 /// A measure of the influence of an input on an output.

@@ -6,9 +6,9 @@ use super::SurrogateRefusal;
 use crate::given::Column;
 use crate::given::order::Order;
 use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
-use crate::sum::rescaled;
 use crate::surrogate::basis::Family;
 use crate::surrogate::{Trial, trials};
+use apportion_base::sum::rescaled;
 
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
 const WIDE: f64 = 3.0;
@@ -70,7 +70,7 @@ fn logarithm(x: &[f64]) -> Option<Vec<f64>> {
 }
 
 fn skewness(x: &[f64]) -> f64 {
-    let mean = crate::sum::mean(x);
+    let mean = apportion_base::sum::mean(x);
     let moment = |power: i32| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / x.len() as f64;
     moment(3) / libm::pow(moment(2), 1.5)
 }

@@ -81,7 +81,7 @@ fn ishigami_is_ishigami() {
 #[test]
 fn columns_of_any_length_are_their_rows() {
     let expression = Expression::parse("if(x > 0.5, x*y, ln(x)) - y^2", &symbol).expect("a formula");
-    let unit = crate::quantity::Unit::dimensionless();
+    let unit = apportion_base::quantity::Unit::dimensionless();
     let model = ExpressionModel::new(vec![(Output::new("z", unit, "a formula"), expression.clone())]);
     let rows = 2 * TILE + 3;
     let column = |shift: f64| (0..rows).map(|row| (0.618 * row as f64 + shift).fract()).collect::<Vec<f64>>();

@@ -1,14 +1,14 @@
 //! The parts that functions with known indices are made of.
 
 use super::Exact;
-use crate::quantity::Domain;
 use crate::space::Distribution;
+use apportion_base::quantity::Domain;
 
 /// An input of a function.
 ///
 /// Inputs are dimensionless. Those of the engineering functions are quantities in the units of their papers, given in
 /// the description: the constants of the formulas hold only for these, and some of the units (ohms, kelvins, feet) are
-/// not among those of [`crate::quantity`].
+/// not among those of [`apportion_base::quantity`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownInput {
     /// Its name in study files: the symbol of the paper.

@@ -35,7 +35,7 @@ pub use model::{known_inputs, known_model, known_output};
 use parameters::Given;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
-use crate::quantity::Domain;
+use apportion_base::quantity::Domain;
 
 const ENTRIES: [&KnownAnswer; 17] = [
     &ishigami::ENTRY,

@@ -2,7 +2,7 @@
 
 use super::{KnownFunction, KnownInput};
 use crate::model::{FunctionModel, Input, Model, Output, RowFailure};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Returns the single output, y.
 pub fn known_output() -> Output {

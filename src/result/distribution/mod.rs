@@ -5,8 +5,8 @@ mod quantile;
 pub use quantile::{PERCENTS, quantile};
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::Unit;
-use crate::sum::{mean, rescaled};
+use apportion_base::quantity::Unit;
+use apportion_base::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as in result files. Numbers are in `unit`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
 use crate::result::{SeriesRecord, StudyResult};
+use apportion_base::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
 
 /// A key, and the error there.
 type Fault = (String, String);

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
-use crate::files::read_whole;
 use crate::result::StudyResult;
+use apportion_base::files::read_whole;
 
 /// The newest supported version of the format.
 const VERSION: u32 = 1;

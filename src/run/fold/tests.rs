@@ -1,12 +1,12 @@
 use std::time::Duration;
 
 use super::*;
-use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext};
-use crate::quantity::Unit;
 use crate::run::{Job, Progress};
 use crate::space::{Distribution, Factor, Space};
+use apportion_base::clock::Instant;
+use apportion_base::quantity::Unit;
 
 /// sin(9 x0) + x1 / 3, failing where x0 > 0.9.
 fn model() -> impl Model {

@@ -24,8 +24,8 @@ pub use identity::differences;
 use serde_json::Value;
 
 use super::Piece;
-use crate::clock::Instant;
-use crate::files::{read_opened, read_whole};
+use apportion_base::clock::Instant;
+use apportion_base::files::{read_opened, read_whole};
 
 /// Time between forced writes to the disk, the most that a power cut can lose (the death of the program loses none).
 const SYNC_INTERVAL: Duration = Duration::from_secs(1);

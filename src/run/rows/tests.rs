@@ -4,9 +4,9 @@ use std::time::Duration;
 use super::*;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, FunctionModel, Model, Output, RowFailure, RunContext, Worker};
-use crate::quantity::Unit;
 use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
+use apportion_base::quantity::Unit;
 
 fn space() -> Space {
     let unit_interval = || Distribution::uniform(0.0, 1.0).unwrap();

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::model::{CounterKind, Output, RunContext};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Two outputs, one validity flag; never run.
 struct Described([Output; 2], [crate::model::Flag; 1]);

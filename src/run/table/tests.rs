@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::*;
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext, Worker};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// A function evaluated by several workers, until it gives up at a value.
 struct Slow<M> {

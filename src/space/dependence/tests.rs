@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 fn space(laws: Vec<Distribution>) -> Space {
     let names = ["a", "b", "c", "d"];

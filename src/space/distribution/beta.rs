@@ -5,7 +5,7 @@
 
 use super::prelude::*;
 use super::solve::{halley, parabola};
-use crate::special::beta_fraction;
+use apportion_base::special::beta_fraction;
 
 /// Shapes outside are refused: the continued fraction would need thousands of terms, or all values are at a bound.
 const SHAPES: (f64, f64) = (1e-3, 1e5);

@@ -1,6 +1,6 @@
 //! Errors in the parameters of a distribution.
 
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Why a distribution was refused; the text contains what is wrong and what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

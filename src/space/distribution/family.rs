@@ -5,7 +5,7 @@ use serde::ser::{SerializeSeq, Serializer};
 
 use super::keys::{Entry, in_si};
 use super::{Distribution, DistributionError, MeasuredFile};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// A parameter as in a study file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,7 +5,7 @@ use super::error::{finite, missing, refused, wrong_unit};
 use super::family::Parameter;
 use super::solved::{Shape, solved};
 use super::{Distribution, DistributionError, ENTRIES};
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// A key of a distribution in a study file.
 #[derive(Debug)]

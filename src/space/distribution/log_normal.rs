@@ -1,7 +1,7 @@
 //! The log-normal distribution.
 
 use super::prelude::*;
-use crate::special::{normal_below, normal_quantile};
+use apportion_base::special::{normal_below, normal_quantile};
 
 /// The distribution of a variable whose logarithm is normal.
 #[derive(Clone, Debug, PartialEq)]

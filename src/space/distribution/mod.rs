@@ -44,7 +44,7 @@ pub(crate) use seed::{mixed, seed_of};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use values::{MeasuredFile, Values};
 
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// The smallest `u` at which quantiles are guaranteed to be finite, 2^-64.
 pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;

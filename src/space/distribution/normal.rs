@@ -1,7 +1,7 @@
 //! The normal distribution.
 
 use super::prelude::*;
-use crate::special::{normal_below, normal_quantile};
+use apportion_base::special::{normal_below, normal_quantile};
 
 /// The normal (Gaussian) distribution.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The seeds of a stochastic model.
 
 use super::prelude::*;
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// The largest seed, 2^31 - 1: the largest integer that the generators of C, R, Fortran and NumPy all accept.
 const LARGEST: f64 = ((1u64 << 31) - 1) as f64;

@@ -8,8 +8,8 @@ use super::gumbel::Gumbel;
 use super::normal::Normal;
 use super::prelude::*;
 use super::quadrature::{integral, moments};
-use crate::quantity::Unit;
-use crate::special::{normal_below, normal_quantile, normal_quantile_near_median};
+use apportion_base::quantity::Unit;
+use apportion_base::special::{normal_below, normal_quantile, normal_quantile_near_median};
 
 /// Below this probability between the bounds, probabilities of single values would exceed the range of `f64`.
 const MIN_MASS: f64 = 1e-280;

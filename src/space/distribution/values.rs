@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::prelude::*;
-use crate::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Finitely many values with their probabilities.
 #[derive(Clone, Debug, PartialEq)]

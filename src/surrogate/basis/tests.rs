@@ -1,5 +1,5 @@
 use super::*;
-use crate::sum::product;
+use apportion_base::sum::product;
 
 fn legendre(factors: usize) -> Vec<Family> {
     vec![Family::Legendre; factors]

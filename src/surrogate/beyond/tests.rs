@@ -1,7 +1,7 @@
 use super::*;
 use crate::space::Distribution;
-use crate::special::{normal_below, normal_quantile};
 use crate::surrogate::knots::Knotted;
+use apportion_base::special::{normal_below, normal_quantile};
 
 fn beyond(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> Beyond {
     let families = [family, Family::Legendre];

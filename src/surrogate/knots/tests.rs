@@ -1,5 +1,5 @@
 use super::*;
-use crate::sum::product;
+use apportion_base::sum::product;
 
 fn knot(u: f64, is_step: bool) -> Knot {
     Knot { u, width: 0.01, is_step }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sum::product;
+use apportion_base::sum::product;
 
 #[test]
 fn polynomials_are_orthonormal_under_their_distribution() {

@@ -7,8 +7,8 @@ use std::thread;
 use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, Model, RowFailure, RunContext};
-use apportion::quantity::Unit;
 use apportion::space::{Distribution, Factor};
+use apportion_base::quantity::Unit;
 use apportion_files::{
     CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, PerRun, Pick, Program, Protocol, Source, Way,
 };

@@ -1,7 +1,7 @@
 //! Formulas.
 
 use apportion::model::{Batch, Expression, ExpressionModel, Model, Output, RunContext, Symbol};
-use apportion::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 const POINTS: [[f64; 3]; 5] =
     [[0.5, -2.0, 3.0], [0.0, -0.0, 1.0], [1e308, -1e308, 1e-308], [-1.0, 0.5, 4096.0], [f64::MAX, f64::MIN, 5e-324]];

@@ -1,9 +1,9 @@
 //! The points of the map: at the bounds of the factors and past them.
 
 use apportion::model::{FunctionModel, Output, RowFailure};
-use apportion::quantity::Unit;
 use apportion::space::Distribution;
 use apportion::study::Study;
+use apportion_base::quantity::Unit;
 use apportion_cli::trade::extremes::{Extremes, Kind, Reason};
 
 use super::map_of;

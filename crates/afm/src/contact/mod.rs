@@ -15,7 +15,7 @@ mod tests;
 
 use std::f64::consts::PI;
 
-use apportion::names::named;
+use apportion_base::names::named;
 
 use super::{Failure, Scene};
 

@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
-use apportion::quantity::Domain;
+use apportion_base::quantity::Domain;
 use multiversion::multiversion;
 
 use super::presliding::Presliding;

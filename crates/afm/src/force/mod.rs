@@ -17,8 +17,8 @@ mod swing;
 #[cfg(test)]
 mod tests;
 
-use apportion::names::named;
-use apportion::quantity::Domain;
+use apportion_base::names::named;
+use apportion_base::quantity::Domain;
 pub use closed_forms::{AT_ONCE, ClosedForms, Column, Slips};
 pub(super) use presliding::Presliding;
 pub(super) use quasi_static::Statics;

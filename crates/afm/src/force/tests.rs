@@ -179,7 +179,7 @@ fn parameters_of_other_friction_laws_have_no_effect() {
 #[test]
 fn an_unusable_option_is_named() {
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let domain = apportion::quantity::Domain::Positive;
+        let domain = apportion_base::quantity::Domain::Positive;
         let tolerance = Options { tolerance: value, ..Options::default() };
         let named = |parameter| Err(Failure::OutOfDomain { parameter, domain });
         assert_eq!(critical_force(&Scene::default(), &tolerance), named("tolerance"));

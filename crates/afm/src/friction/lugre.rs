@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use apportion::names::named;
+use apportion_base::names::named;
 
 use crate::Scene;
 

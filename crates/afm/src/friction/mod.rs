@@ -14,7 +14,7 @@ mod stribeck;
 #[cfg(test)]
 mod tests;
 
-use apportion::names::named;
+use apportion_base::names::named;
 pub use armstrong::Armstrong;
 pub use coulomb::Coulomb;
 pub use dahl::Dahl;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use apportion::model::{Batch, Output, OutputSeries, SeriesAxis, SeriesError};
-use apportion::names::named;
+use apportion_base::names::named;
 
 use super::output::edge;
 use crate::history::{Sample, at_times};

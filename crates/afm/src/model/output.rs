@@ -1,8 +1,8 @@
 //! The outputs of the critical-force computation.
 
 use apportion::model::Output;
-use apportion::names::named;
-use apportion::quantity::Unit;
+use apportion_base::names::named;
+use apportion_base::quantity::Unit;
 
 use crate::force::{ClosedForms, Column, Slips};
 use crate::{Critical, Failure};

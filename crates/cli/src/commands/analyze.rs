@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use apportion::analysis::unlikely_outputs;
-use apportion::files::read_text;
 use apportion::given::Column;
-use apportion::quantity::Unit;
 use apportion::run::Store;
 use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
 use apportion::study::Study;
 use apportion::{Unlikely, Warning};
+use apportion_base::files::read_text;
+use apportion_base::quantity::Unit;
 use apportion_files::exchange::{
     AnswersRequest, ColumnKind, Manifest, Missing, RowReader, first_output, open_table, output_columns, read_answers,
 };

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::names::{file_part, refused_name};
 use apportion::result::read_result;
+use apportion_base::names::{file_part, refused_name};
 use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
 
 use super::output::{OutputArguments, deliver};

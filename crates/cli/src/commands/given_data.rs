@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use apportion::digest::sha256;
-use apportion::files::read_whole;
 use apportion::given::{Column, analyse, measures, surrogate_indices};
 use apportion::{Distribution, Study};
+use apportion_base::digest::sha256;
+use apportion_base::files::read_whole;
 use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion_report::given::{GivenFacts, build_given, given_document};
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::files::read_whole;
 use apportion::result::{ReadError, ReadProblem, parse_result};
+use apportion_base::files::read_whole;
 use apportion_report::run_document;
 
 use super::live::LiveArguments;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::files::read_text;
+use apportion_base::files::read_text;
 use apportion_files::exchange::{
     Format, Manifest, ReadOptions, open_table, random_design, sample as write_sample, write_rows,
 };

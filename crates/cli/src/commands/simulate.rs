@@ -1,6 +1,6 @@
 //! `apportion simulate`: one scene of a study in time.
 
-use apportion::quantity::{Dimension, Quantity};
+use apportion_base::quantity::{Dimension, Quantity};
 
 use super::StudyArguments;
 use super::output::{OutputArguments, deliver};

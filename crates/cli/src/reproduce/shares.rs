@@ -2,7 +2,7 @@
 
 use apportion::Estimate;
 use apportion::result::IndexRecord;
-use apportion::text::listed;
+use apportion_base::text::listed;
 use apportion_report::chart::{Chart, Series};
 use apportion_report::document::Table;
 use apportion_report::format::{or_dash, words};

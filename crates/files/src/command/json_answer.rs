@@ -1,7 +1,7 @@
 //! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
 use apportion::model::item_of_list;
-use apportion::text::{masked, shortened};
+use apportion_base::text::{masked, shortened};
 use serde_json::Value;
 
 /// The content of an object under one key: a single output, or a list of several.

@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
-use apportion::text::seconds;
+use apportion_base::text::seconds;
 use session::{LONGEST, Lookup, Rows, Session};
 
 use super::process::{Event, Process};

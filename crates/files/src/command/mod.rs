@@ -17,8 +17,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
 use apportion::model::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
-use apportion::quantity::Unit;
 use apportion::space::Factor;
+use apportion_base::quantity::Unit;
 use kept_alive::KeptAliveWorker;
 pub use per_run::PerRun;
 use per_run::PerRunWorker;

@@ -7,9 +7,9 @@ use std::process::Stdio;
 use std::sync::Mutex;
 use std::time::{Duration, Instant, SystemTime};
 
-use apportion::digest::sha256;
 use apportion::model::{Batch, RowFailure, RunContext, Worker};
-use apportion::text::seconds;
+use apportion_base::digest::sha256;
+use apportion_base::text::seconds;
 use tempfile::TempDir;
 
 use super::pick::{MAX_BYTES, STDOUT, Source, Texts};

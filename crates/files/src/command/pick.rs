@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use apportion::files::read_whole;
-use apportion::text::masked;
+use apportion_base::files::read_whole;
+use apportion_base::text::masked;
 use regex_lite::Regex;
 use serde_json::Value;
 

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::Duration;
 
 use apportion::model::Messages;
-use apportion::text::cut;
+use apportion_base::text::cut;
 
 use super::program::{Program, Running};
 

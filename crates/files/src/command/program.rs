@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 use std::time::{Duration, Instant};
 
-use apportion::text::masked;
+use apportion_base::text::masked;
 
 /// A program with its arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]

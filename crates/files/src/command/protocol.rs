@@ -3,10 +3,10 @@
 
 use std::fmt::Write;
 
-use apportion::names::named;
-use apportion::quantity::Unit;
 use apportion::space::Factor;
-use apportion::text::{cut, masked};
+use apportion_base::names::named;
+use apportion_base::quantity::Unit;
+use apportion_base::text::{cut, masked};
 use serde_json::Value;
 
 use super::json_answer::{Answer, failed, json, json_answer, keys_in_words};

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use apportion::digest::Sha256;
 use apportion::model::{Output, OutputSeries, RowFailure};
-use apportion::names::{refused_output_name, shown};
-use apportion::quantity::{Unit, is_same};
 use apportion::run::{Piece, Store};
 use apportion::space::{Factor, Space};
 use apportion::study::{ExternalSubject, Study, Subject};
+use apportion_base::digest::Sha256;
+use apportion_base::names::{refused_output_name, shown};
+use apportion_base::quantity::{Unit, is_same};
 
 use super::design_rows::{add_rows, each_block, factor_column};
 use super::error::{TableError, refused};

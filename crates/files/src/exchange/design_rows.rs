@@ -5,12 +5,12 @@ use std::ops::Range;
 use std::path::Path;
 
 use apportion::design::{Design, DesignError, DesignSettings, Rows, Sampler};
-use apportion::digest::Sha256;
 use apportion::model::Output;
-use apportion::quantity::Unit;
 use apportion::run::{RowValues, Store};
 use apportion::space::{Factor, Space};
 use apportion::study::Study;
+use apportion_base::digest::Sha256;
+use apportion_base::quantity::Unit;
 
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, Format, RowWriter};

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use apportion::StudyBuilder;
 use apportion::design::Sampler;
-use apportion::quantity::{Dimension, Quantity};
 use apportion::space::Space;
 use apportion::study::{AnalysisOptions, RepeatedSubject, Subject, Target};
+use apportion_base::quantity::{Dimension, Quantity};
 
 use super::context::{Context, Fault, choice, choice_if_said, unknown_name};
 use super::sections::{At, NameList, StudyFile};

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use apportion::model::{KnownAnswer, KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
-use apportion::names::Named;
-use apportion::quantity::{Dimension, Quantity, Unit};
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
+use apportion_base::names::Named;
+use apportion_base::quantity::{Dimension, Quantity, Unit};
 use toml::Value;
 
 use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};

@@ -7,8 +7,8 @@
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
-use apportion::names::Named;
 use apportion::study::did_you_mean;
+use apportion_base::names::Named;
 use toml::Value;
 
 use super::at::At;

@@ -1,9 +1,9 @@
 //! The tables `[[dependence]]`: factors that depend on each other; and files of measured values.
 
-use apportion::digest::sha256;
-use apportion::files::read_whole;
 use apportion::space::distribution::MeasuredFile;
 use apportion::space::{CorrelationMeasure, Dependence, Space};
+use apportion_base::digest::sha256;
+use apportion_base::files::read_whole;
 
 use super::analysis::place;
 use super::context::{Context, Fault, Reach, choice, resolve, unknown_name, wrong};

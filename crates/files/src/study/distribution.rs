@@ -2,10 +2,10 @@
 //! outputs and in messages.
 
 use apportion::model::Input;
-use apportion::names::{SHORT_TEXT, is_short_text};
-use apportion::quantity::{Domain, Unit};
 use apportion::space::distribution::{Kind, Parameter};
 use apportion::space::{Distribution, DistributionError};
+use apportion_base::names::{SHORT_TEXT, is_short_text};
+use apportion_base::quantity::{Domain, Unit};
 use toml::Value;
 
 use super::context::{Context, Fault, unknown_name, wrong};

@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use apportion::quantity::UnitError;
 use apportion::study::{BuildError, did_you_mean};
+use apportion_base::quantity::UnitError;
 use thiserror::Error;
 
 /// A study that cannot be read or is invalid.

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use apportion::model::{Expression, ExpressionProblem, Input, Symbol};
-use apportion::names::nearest;
-use apportion::quantity::{Quantity, Unit};
 use apportion::space::Space;
 use apportion::study::did_you_mean;
+use apportion_base::names::nearest;
+use apportion_base::quantity::{Quantity, Unit};
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};

@@ -3,8 +3,8 @@
 use std::str::FromStr;
 use std::sync::Arc;
 
-use apportion::names::refused_name;
 use apportion::study::{LowFidelity, Study, Subject};
+use apportion_base::names::refused_name;
 use toml_edit::{DocumentMut, Item, TableLike};
 
 use super::context::{Context, Fault, unknown_name, wrong};

@@ -25,9 +25,9 @@ mod template;
 
 use std::path::{Path, PathBuf};
 
-use apportion::digest::sha256;
-use apportion::files::read_text;
 use apportion::study::{Study, StudySource};
+use apportion_base::digest::sha256;
+use apportion_base::files::read_text;
 pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;

@@ -4,9 +4,9 @@
 use std::ops::Range;
 
 use apportion::model::{Input, Output, OutputSeries, SeriesAxis, SeriesError};
-use apportion::names::{SHORT_TEXT, is_short_text};
-use apportion::quantity::Unit;
 use apportion::study::ExternalSubject;
+use apportion_base::names::{SHORT_TEXT, is_short_text};
+use apportion_base::quantity::Unit;
 use regex_lite::Regex;
 use schemars::JsonSchema;
 use serde::Deserialize;

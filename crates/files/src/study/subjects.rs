@@ -6,9 +6,9 @@ use std::sync::Arc;
 use apportion::model::{
     Expression, ExpressionModel, Input, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
 };
-use apportion::quantity::{Quantity, Unit};
 use apportion::space::{Factor, Space};
 use apportion::study::Subject;
+use apportion_base::quantity::{Quantity, Unit};
 use serde_json::{Value, json};
 
 use crate::{CommandModel, CommandSettings, Form, ModelKind, program_files};

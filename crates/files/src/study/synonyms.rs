@@ -1,6 +1,6 @@
 //! Words of other programs for the names in a study.
 
-use apportion::names::nearest;
+use apportion_base::names::nearest;
 
 /// Returns our word, or two of them, for a term of SciPy, SALib, UQLab and everyday language.
 fn of_others(term: &str) -> &'static [&'static str] {

@@ -2,8 +2,8 @@
 
 use apportion::design::DesignSettings;
 use apportion::model::{Input, Output};
-use apportion::text::capitalised;
 use apportion_afm::Options;
+use apportion_base::text::capitalised;
 
 use super::context::unknown_name;
 use super::distribution::with_unit;

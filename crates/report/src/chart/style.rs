@@ -1,6 +1,6 @@
 //! The style of all charts: colours, symbols, faces and lengths.
 
-use apportion::quantity::{Dimension, Quantity};
+use apportion_base::quantity::{Dimension, Quantity};
 
 use super::text::Face;
 

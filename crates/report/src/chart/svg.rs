@@ -3,7 +3,7 @@
 
 use std::fmt::{Display, Formatter, Result, Write};
 
-use apportion::text::symbol;
+use apportion_base::text::symbol;
 
 use super::model::Stroke;
 use super::style::{Colour, DOTS_OPACITY, INK, PAPER};

@@ -1,8 +1,8 @@
 //! A comparison as a document, with its charts: the indices side by side, and their differences.
 
 use apportion::result::json;
-use apportion::text::listed;
 use apportion::uncertainty::{Estimate, Interval};
+use apportion_base::text::listed;
 
 use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile};
 use crate::chart::{Chart, Colour, Series};

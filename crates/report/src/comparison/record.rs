@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use apportion::quantity::Unit;
 use apportion::result::{FactorRecord, OutputResult, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
+use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;

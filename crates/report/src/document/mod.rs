@@ -274,7 +274,7 @@ impl Figure {
     /// Returns the part of the chart's title after that of the document.
     pub(crate) fn own_title(&self, title: &str) -> Option<String> {
         let own = self.chart.title.strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
-        own.map(apportion::text::capitalised)
+        own.map(apportion_base::text::capitalised)
     }
 }
 
@@ -314,7 +314,7 @@ impl Part {
 
     /// Lists notes in the same way.
     pub(crate) fn notes(notes: &[String]) -> Option<Self> {
-        let texts = notes.iter().map(|note| format!("{}.", apportion::text::capitalised(note))).collect();
+        let texts = notes.iter().map(|note| format!("{}.", apportion_base::text::capitalised(note))).collect();
         (!notes.is_empty()).then_some(Self::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts })
     }
 
@@ -330,7 +330,7 @@ fn of_sentence(text: &str) -> String {
         Some((name, _)) if !name.contains(' ') || name.ends_with(" runs)") || name.ends_with("(1 run)") => {
             text.to_owned()
         }
-        _ => apportion::text::capitalised(text),
+        _ => apportion_base::text::capitalised(text),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Plain text as HTML: symbols with subscripts, everything escaped, and targets of links.
 
-use apportion::text::symbol;
+use apportion_base::text::symbol;
 
 use crate::format::split_word;
 

@@ -2,8 +2,8 @@
 
 use std::borrow::Borrow;
 
-use apportion::text::inert;
 use apportion::uncertainty::Estimate;
+use apportion_base::text::inert;
 
 use super::Link;
 use crate::csv::{Value, lines};

@@ -1,6 +1,6 @@
 //! Units as printed: `µm` and `J/m²` for the typed `um` and `J/m2`.
 
-use apportion::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 /// Formats a unit with its printed letters and powers: `um` is `µm`, `J/m2` and `J/m^2` are `J/m²`. Other text is kept.
 ///

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use apportion::given::InputIndices;
 use apportion::result::{OutputDistribution, json};
-use apportion::text::listed;
 use apportion::uncertainty::Estimate;
+use apportion_base::text::listed;
 
 use super::{GivenFile, GivenOutputRecord, measures, sentences};
 use crate::chart::{Chart, Colour, Series};

@@ -4,8 +4,8 @@ use apportion::given::{
     Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, NoVariance, OutputIndices, PointSet,
     SurrogateOutput, SurrogateRefusal, Surrogates, TextColumn,
 };
-use apportion::quantity::{Unit, Unlikely};
 use apportion::result::OutputDistribution;
+use apportion_base::quantity::{Unit, Unlikely};
 use serde::{Deserialize, Serialize};
 
 use super::sentences;

@@ -2,7 +2,7 @@
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
-use apportion::text::listed;
+use apportion_base::text::listed;
 
 use super::overview;
 use crate::format::{grouped, index, name, two_digits};

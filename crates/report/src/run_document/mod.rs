@@ -10,7 +10,7 @@ mod tables;
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
-use apportion::text::{capitalised, listed};
+use apportion_base::text::{capitalised, listed};
 use figures::Figures;
 pub use series::one_output;
 use shared::grouped_warnings;

@@ -1,7 +1,7 @@
 //! The document on many outputs: an overview, and a table of every output.
 
 use apportion::result::{OutputResult, StudyResult};
-use apportion::text::listed;
+use apportion_base::text::listed;
 
 use super::figures::Figures;
 use super::shared::{definitions, failed_runs, grouped_warnings};

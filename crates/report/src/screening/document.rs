@@ -2,8 +2,8 @@
 
 use apportion::result::json;
 use apportion::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
-use apportion::text::listed;
 use apportion::uncertainty::Estimate;
+use apportion_base::text::listed;
 
 use super::ScreeningFile;
 use crate::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};

@@ -3,7 +3,7 @@
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::json;
 use apportion::sweep::{NominalOutput, Sweep, SweptOutput};
-use apportion::text::listed;
+use apportion_base::text::listed;
 
 use super::record::{value_in_words, width};
 use super::{SweepFile, gap_lines};

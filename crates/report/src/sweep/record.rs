@@ -5,10 +5,10 @@
 
 use apportion::analysis::{study_setup, validity};
 use apportion::model::Model;
-use apportion::quantity::Unlikely;
 use apportion::result::{StudySetup, ValidityRecord};
 use apportion::study::Study;
 use apportion::sweep::{NominalOutput, Sweep, Sweeps, SweptOutput};
+use apportion_base::quantity::Unlikely;
 use serde::{Deserialize, Serialize};
 
 use crate::format::short_with_unit;

@@ -1,5 +1,5 @@
 use apportion::model::{Model, RunContext};
-use apportion::quantity::Unit;
+use apportion_base::quantity::Unit;
 
 use super::*;
 use crate::{AfmModel, AfmOutput, Fidelity, Parameter};

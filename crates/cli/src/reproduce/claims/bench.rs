@@ -2,11 +2,11 @@
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
-use apportion::sum;
 use apportion::uncertainty::{Interval, StandardError, t_interval};
 use apportion_afm::history::{History, history};
 use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
+use apportion_base::sum;
 
 use super::judge::{Holding, Share, number};
 use crate::reproduce::papers::Words;

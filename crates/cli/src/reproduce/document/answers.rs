@@ -2,7 +2,7 @@
 
 use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
-use apportion::text::{capitalised, listed};
+use apportion_base::text::{capitalised, listed};
 use apportion_report::document::{Cell, Mark, OnPhone, Part, Table};
 use apportion_report::format::{chance, words};
 use apportion_report::{fixed, share_of_runs};

@@ -1,7 +1,7 @@
 //! The scene in time: CHK figure 5 and the histories of TS04.
 
-use apportion::text::listed;
 use apportion_afm::{Failure, FrictionLaw, Options, Scene};
+use apportion_base::text::listed;
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion_report::document::{Rows, Table};
 use apportion_report::format::{force, length, time};

@@ -2,8 +2,8 @@
 
 use apportion::space::{Factor, Space};
 use apportion::sweep::values_over_range;
-use apportion::text::{capitalised, listed};
 use apportion_afm::{Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
+use apportion_base::text::{capitalised, listed};
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion_report::document::Table;
 use apportion_report::format::{three_digits as short, unit};

@@ -1,9 +1,9 @@
 //! The compared curves: a study's settings, each at a growing number of base samples.
 
 use apportion::design::{DesignError, DesignSettings, Sampler};
-use apportion::names::named;
 use apportion::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoice, Target};
 use apportion::uncertainty::IntervalMethod;
+use apportion_base::names::named;
 use serde::{Deserialize, Serialize};
 
 /// Suffix of the names of curves with surrogates.

@@ -10,10 +10,10 @@ mod document;
 use std::sync::atomic::AtomicBool;
 
 use apportion::analysis::study_setup;
-use apportion::clock::Instant;
 use apportion::result::{OutputResult, StudyResult, StudySetup};
 use apportion::run::{RunError, threads_in_force};
 use apportion::study::{Study, SurrogateChoice, Target};
+use apportion_base::clock::Instant;
 pub use curve::Axis;
 use curve::{Curve, SURROGATES, indices_only, rungs};
 pub use document::settings_document;

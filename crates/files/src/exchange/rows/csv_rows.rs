@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::io::{Read, Write};
 
-use apportion::text::{csv_field, plain_field};
+use apportion_base::text::{csv_field, plain_field};
 
 use super::lines::Lines;
 use super::{ColumnKind, ReadOptions, RowReader, check_names, expanded, is_error_word, names_of_columns, number};

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
 
-use apportion::files::MAX_STREAM_BYTES;
+use apportion_base::files::MAX_STREAM_BYTES;
 
 /// Maximum number of bytes of a line, so that a file without line ends does not exhaust the memory.
 const LONGEST_LINE: usize = 16 << 20;

@@ -12,9 +12,9 @@ use std::fs::File;
 use std::io::{BufWriter, Cursor, Read, Seek, Write};
 use std::path::Path;
 
-use apportion::files::read_opened;
 use apportion::model::items_of_header;
-use apportion::names::{named, refused_name};
+use apportion_base::files::read_opened;
+use apportion_base::names::{named, refused_name};
 use flate2::read::MultiGzDecoder;
 
 use super::error::{TableError, refused};

@@ -2,10 +2,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use apportion::files::read_text;
-use apportion::names::nearest;
 use apportion::space::Space;
 use apportion::study::did_you_mean;
+use apportion_base::files::read_text;
+use apportion_base::names::nearest;
 
 use super::{At, CommandKey, CommandSection, Context, Fault, existing, reach};
 use crate::study::context::{resolve, wrong};

@@ -4,7 +4,7 @@
 /// Joins a list as in prose: `a`, `a and b`, `a, b and c`.
 ///
 /// ```
-/// assert_eq!(apportion::text::listed(&["length", "width", "height"]), "length, width and height");
+/// assert_eq!(apportion_base::text::listed(&["length", "width", "height"]), "length, width and height");
 /// ```
 pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
     match items {

@@ -115,7 +115,7 @@ pub fn shown(text: &str) -> String {
 /// Returns `name` as part of a file name: without characters that are special in a file system, and not too long.
 ///
 /// ```
-/// assert_eq!(apportion::names::file_part("../x: y"), ".._x_ y");
+/// assert_eq!(apportion_base::names::file_part("../x: y"), ".._x_ y");
 /// ```
 pub fn file_part(name: &str) -> String {
     let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };

@@ -6,7 +6,7 @@ pub const SAME_VALUE: f64 = 1e-9;
 /// Returns whether `found` is `expected` to [`SAME_VALUE`], or both are the same infinity; NaN equals nothing.
 ///
 /// ```
-/// use apportion::quantity::is_same;
+/// use apportion_base::quantity::is_same;
 ///
 /// assert!(is_same(0.333_333_333_33, 1.0 / 3.0));
 /// assert!(!is_same(0.333, 1.0 / 3.0));

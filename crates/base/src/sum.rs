@@ -10,7 +10,7 @@ pub const LANES: usize = 8;
 
 /// Returns the sum of `f(i)` for `i` in `0..n`, in the fixed shape.
 #[inline(always)]
-pub(crate) fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
+pub fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
     let [sum] = sums_by(n, |i| [f(i)]);
     sum
 }
@@ -18,7 +18,7 @@ pub(crate) fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
 /// Returns the sums of several terms at once, each in the fixed shape.
 #[expect(clippy::needless_range_loop, reason = "the compiler makes one wide register of the lanes of this form")]
 #[inline(always)]
-pub(crate) fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64; K] {
+pub fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64; K] {
     let mut lanes = [[0.0; LANES]; K];
     let whole = n - n % LANES;
     let mut i = 0;
@@ -68,7 +68,7 @@ pub fn centred_product(x: (&[f64], f64), y: (&[f64], f64)) -> f64 {
 
 /// Returns the [centred products](centred_product) of `z` with `x`, `y` and itself in one pass; all have one length.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-pub(crate) fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f64)) -> [f64; 3] {
+pub fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f64)) -> [f64; 3] {
     let ((x, mean_x), (y, mean_y), (z, mean_z)) = (x, y, z);
     let n = z.len();
     let (x, y) = (&x[..n], &y[..n]);
@@ -80,7 +80,7 @@ pub(crate) fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f
 
 /// Returns the smallest and the largest of finite values; infinities if there are none.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-pub(crate) fn range(x: &[f64]) -> (f64, f64) {
+pub fn range(x: &[f64]) -> (f64, f64) {
     let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
     for chunk in x.chunks(LANES) {
         for (lane, &value) in chunk.iter().enumerate() {
@@ -93,7 +93,7 @@ pub(crate) fn range(x: &[f64]) -> (f64, f64) {
 
 /// Returns the values times 2^-e, and e, such that the largest magnitude lies between 1 and 2: sums of their powers
 /// neither overflow nor underflow, and no digit is lost. Values must be finite; e is 0 if all are zero.
-pub(crate) fn rescaled(x: &[f64]) -> (Vec<f64>, i32) {
+pub fn rescaled(x: &[f64]) -> (Vec<f64>, i32) {
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let exponent = if largest == 0.0 { 0 } else { libm::ilogb(largest) };
     (x.iter().map(|&v| libm::scalbn(v, -exponent)).collect(), exponent)

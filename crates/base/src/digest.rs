@@ -21,7 +21,7 @@ impl Sha256 {
 /// Returns the digest of `bytes` in hexadecimal.
 ///
 /// ```
-/// assert!(apportion::digest::sha256(b"abc").starts_with("ba7816bf8f01cfea"));
+/// assert!(apportion_base::digest::sha256(b"abc").starts_with("ba7816bf8f01cfea"));
 /// ```
 pub fn sha256(bytes: &[u8]) -> String {
     let mut digest = Sha256::default();

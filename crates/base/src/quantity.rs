@@ -20,12 +20,12 @@ pub use unlikely::Unlikely;
 /// A value with its unit, as typed.
 ///
 /// ```
-/// use apportion::Quantity;
+/// use apportion_base::quantity::Quantity;
 ///
 /// let tilt = Quantity::parse("0.7 deg")?;
 /// assert_eq!(tilt.to_si(), 0.7_f64.to_radians());
 /// assert_eq!(tilt.to_string(), "0.7 deg");
-/// # Ok::<(), apportion::UnitError>(())
+/// # Ok::<(), apportion_base::quantity::UnitError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {

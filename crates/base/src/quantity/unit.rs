@@ -21,8 +21,8 @@ use super::{Dimension, UnitError};
 /// it is its symbol; when read from there, a text that is not a unit is a [`label`](Self::label).
 ///
 /// ```
-/// use apportion::quantity::Dimension;
-/// use apportion::Unit;
+/// use apportion_base::quantity::Dimension;
+/// use apportion_base::quantity::Unit;
 ///
 /// let micrometre = Unit::parse("um")?;
 /// assert_eq!(micrometre.to_si(225.0), 225e-6);
@@ -32,7 +32,7 @@ use super::{Dimension, UnitError};
 /// assert!(Unit::parse("furlong").is_err());
 /// let celsius = Unit::parse("degC")?;
 /// assert_eq!((celsius.to_si(20.0), celsius.span_to_si(20.0)), (293.15, 20.0));
-/// # Ok::<(), apportion::UnitError>(())
+/// # Ok::<(), apportion_base::quantity::UnitError>(())
 /// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
@@ -62,7 +62,7 @@ impl Unit {
     /// converted. Outputs of programs have such units, for example `USD` or `points`.
     ///
     /// ```
-    /// use apportion::Unit;
+    /// use apportion_base::quantity::Unit;
     ///
     /// let price = Unit::label("EUR/kWh");
     /// assert_eq!((price.symbol(), price.to_si(0.3)), ("EUR/kWh", 0.3));
