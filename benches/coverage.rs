@@ -15,10 +15,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use apportion::analysis::{IntervalOptions, output_indices};
+use apportion::effect::Layout;
 use apportion::estimate::MomentParts;
 use apportion::model::KnownAnswer;
 use apportion::run::{Job, run};
-use apportion::uncertainty::{IntervalMethod, IntervalOptions, Layout, output_indices};
+use apportion::uncertainty::IntervalMethod;
 
 const SEEDS: u64 = 100;
 const SIZES: std::ops::RangeInclusive<u32> = 8..=14;

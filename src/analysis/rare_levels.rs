@@ -1,9 +1,11 @@
 //! Levels of factors that are rare or absent in the rows of a design: results silently miss their effect.
 
+use super::output_indices::OutputIndices;
 use crate::design::Design;
 use crate::result::{PAIRS_OF_POINT, RareLevel};
-use crate::space::{Distribution, Group, Space};
-use crate::uncertainty::{Interval, OutputIndices};
+use crate::space::{Distribution, Space};
+use crate::study::StudyEffect;
+use crate::uncertainty::Interval;
 
 /// Expected number of joint draws of two rare levels for their joint effect to be seen: one of 150 designs has none.
 const MIN_MEETINGS: f64 = 5.0;
@@ -108,15 +110,15 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 
 /// Removes results from `indices` that are not valid without the levels: probabilities, and that a factor with a single
 /// value in all rows has no effect.
-pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], members: &[Group]) {
-    let place = |factor: usize| members.iter().position(|member| member.factors.contains(&factor));
+pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], effects: &[StudyEffect]) {
+    let place = |factor: usize| effects.iter().position(|of| of.factors.contains(&factor));
     for level in rare {
         for number in level.partner.into_iter().chain([level.number]) {
-            if let Some(effect) = place(number).and_then(|place| indices.factors.get_mut(place)) {
-                effect.probability_above_threshold = None;
+            if let Some(of) = place(number).and_then(|place| indices.effects.get_mut(place)) {
+                of.estimates.probability_above_threshold = None;
             }
         }
-        let of_level = place(level.number).and_then(|place| indices.factors.get_mut(place));
+        let of_level = place(level.number).and_then(|place| indices.effects.get_mut(place)).map(|of| &mut of.estimates);
         let Some(effect) = of_level.filter(|_| level.partner.is_none()) else { continue };
         if level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
@@ -126,7 +128,7 @@ pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], members:
         }
     }
     if !rare.is_empty() {
-        indices.factors.iter_mut().for_each(|effect| effect.probability_first = None);
+        indices.effects.iter_mut().for_each(|of| of.estimates.probability_first = None);
     }
 }
 

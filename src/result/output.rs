@@ -110,9 +110,8 @@ impl OutputResult {
         let noise = self.noise.iter().map(|noise| &noise.effect);
         let groups = self.groups.iter().flatten().map(|group| &group.effect);
         let subsets = self.subsets.iter().flatten().map(|subset| &subset.effect);
-        let of_effect = |effect: &EffectEstimates| [Some(effect.first_order), Some(effect.total), effect.shapley];
         let effects = factors.chain(noise).chain(groups).chain(subsets);
-        largest_half_width(effects.flat_map(of_effect).flatten())
+        largest_half_width(effects.flat_map(EffectEstimates::indices))
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {

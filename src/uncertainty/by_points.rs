@@ -13,7 +13,7 @@ const UNDEFINED: f64 = 0.01;
 
 /// The method, and for a bootstrap its random numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ByPoints<'a> {
+pub(crate) struct ByPoints<'a> {
     pub method: IntervalMethod,
     pub points: KeptPoints<'a>,
     pub seed: u64,
@@ -21,7 +21,7 @@ pub(super) struct ByPoints<'a> {
 }
 
 /// A standard error, and an interval if there is one.
-pub(super) type Bounds = (StandardError, Option<Interval>);
+pub(crate) type Bounds = (StandardError, Option<Interval>);
 
 impl ByPoints<'_> {
     /// Computes the bounds of `estimates`, the results of `quantities` on `whole`, the moments of all points.

@@ -26,7 +26,7 @@ const MIN_FREEDOM: f64 = 1.5;
 
 /// The sides of an estimate on which the true value may be if few rows dominate it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(crate) enum Side {
     /// Above: a sum of contributions of one sign, such as an index or a variance.
     Above,
     /// On both: a difference, a share, a mean.

@@ -1,6 +1,6 @@
 //! The kinds of interval.
 
-use super::estimates::ErrorKind;
+use super::judgement::ErrorKind;
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
 use apportion_base::names::named;

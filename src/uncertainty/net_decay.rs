@@ -18,7 +18,7 @@
 //! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
 //! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
 
-use super::estimates::ErrorKind;
+use super::judgement::ErrorKind;
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
 
 /// Maximum number of levels of nested parts to which the trend is fitted.

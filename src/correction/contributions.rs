@@ -12,10 +12,10 @@
 //! that of g plus Jansen's estimate of f minus that of g, is better if g is poor; both are mixed by one weight. Every
 //! number is a mean over base points, so that the contributions of the points give the error.
 
-use super::fit::Expansion;
-use super::net::Net;
 use crate::design::Design;
-use crate::uncertainty::Layout;
+use crate::effect::Layout;
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::net::Net;
 
 /// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {
@@ -56,35 +56,35 @@ impl Effects {
 }
 
 /// Returns whether all factors of a term are in a swap.
-pub(super) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(crate) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
     !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
-pub(super) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(crate) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
 /// Returns whether a term has factors of two swaps, and none of others.
-pub(super) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
+pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
     let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
     touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
 }
 
 /// Returns the mean of a power over all columns.
-pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
+pub(crate) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
     columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
 }
 
 /// Returns the contribution of base point `p` to V S_jk by the outputs `y` of every run.
-pub(super) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize), p: usize) -> f64 {
+pub(crate) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize), p: usize) -> f64 {
     let (ab, ba) = (design.ab_runs(), design.ba_runs());
     let product = |j: usize, k: usize| (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
     (product(j, k) + product(k, j)) / 2.0
 }
 
 /// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
-pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+pub(crate) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut values = Vec::new();
     let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
     for (run, sums) in surrogate.iter_mut().enumerate() {
@@ -128,7 +128,7 @@ fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2
 
 impl Contributions {
     /// Returns zero contributions to `effects` at the points of `net`.
-    pub(super) fn zeros(effects: &Effects, net: &Net) -> Self {
+    pub(crate) fn zeros(effects: &Effects, net: &Net) -> Self {
         let (swaps, pairs) = (effects.swaps.len(), effects.pairs.len());
         let points = net.points();
         let columns = |count: usize| vec![vec![0.0; points]; count];
@@ -176,7 +176,7 @@ impl Contributions {
 
     /// Adds the contributions of a non-constant term at every point to the numbers to which it belongs, and to the
     /// second form of the total indices.
-    pub(super) fn add_term(
+    pub(crate) fn add_term(
         &mut self,
         Effects { swaps, pairs }: &Effects,
         term: &[(usize, usize)],
@@ -210,12 +210,12 @@ impl Contributions {
     }
 
     /// Multiplies all numbers.
-    pub(super) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale(&mut self, factor: f64) {
         self.columns_mut().flatten().for_each(|value| *value *= factor);
     }
 
     /// Appends the points that follow.
-    pub(super) fn append(&mut self, mut following: Self) {
+    pub(crate) fn append(&mut self, mut following: Self) {
         let (mine, theirs) = (self.rows as f64, following.rows as f64);
         let mean = |a: f64, b: f64| (mine * a + theirs * b) / (mine + theirs).max(1.0);
         let (two, four) = following.residual;
