@@ -93,7 +93,7 @@ impl Layout {
     }
 
     /// Returns the pairs of factors, in the order of their second-order indices.
-    pub(crate) fn pair_list(&self) -> Vec<(usize, usize)> {
+    pub fn pair_list(&self) -> Vec<(usize, usize)> {
         let factors = self.inputs();
         (0..factors).flat_map(|j| (j + 1..factors).map(move |k| (j, k))).collect()
     }

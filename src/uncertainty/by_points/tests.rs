@@ -184,9 +184,8 @@ fn the_error_of_a_mean_is_the_textbook_one() {
 fn the_inert_factor_has_intervals_of_no_width() {
     let sample = Sample::new(300, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
-        let (estimates, bounds) = sample.bounds(method);
+        let (_, bounds) = sample.bounds(method);
         let judged = estimate::quantities(&sample.layout, &sample.whole()).unwrap().zip(bounds);
-        assert_eq!(estimates, judged.clone().map(|_, (estimate, _)| estimate).into_list());
         let indices = |factor: usize| [judged.effects[factor].first_order, judged.effects[factor].total];
         for (estimate, bounds) in indices(2) {
             assert_eq!(estimate, 0.0);
