@@ -219,8 +219,8 @@ fn sample(
         };
         let layout = Layout::plain(case.first.len());
         let Ok(indices) = output_indices(&parts, &layout, &options) else { return Vec::new() };
-        let factors = indices.factors.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
-        let both = factors.flat_map(|(effect, _)| [effect.first_order, effect.total]);
+        let factors = indices.effects.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
+        let both = factors.flat_map(|(of, _)| [of.estimates.first_order, of.estimates.total]);
         both.map(|e| [e.estimate, e.interval.map_or(f64::NAN, |i| i.low), e.interval.map_or(f64::NAN, |i| i.high)])
             .collect()
     };
