@@ -96,11 +96,9 @@ fn width(estimate: Estimate) -> f64 {
 fn quotient(a: Estimate, b: Estimate) -> Estimate {
     let estimate = a.estimate / b.estimate;
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| {
-        let reach = |of_a: f64, of_b: f64| libm::hypot(of_a / b.estimate, estimate * of_b / b.estimate);
-        Interval {
-            low: estimate - reach(a.estimate - of_a.low, of_b.high - b.estimate),
-            high: estimate + reach(of_a.high - a.estimate, b.estimate - of_b.low),
-        }
+        let below = [(a.estimate - of_a.low) / b.estimate, estimate * (of_b.high - b.estimate) / b.estimate];
+        let above = [(of_a.high - a.estimate) / b.estimate, estimate * (b.estimate - of_b.low) / b.estimate];
+        Interval { low: estimate - libm::hypot(below[0], below[1]), high: estimate + libm::hypot(above[0], above[1]) }
     });
     Estimate { estimate, interval }
 }

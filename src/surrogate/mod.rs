@@ -329,7 +329,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
 /// Returns the largest ratio of the claimed variance to that over the rows, for all factors and those that matter.
 fn growth(nets: &[Contributions]) -> f64 {
     let claims = |place: usize| {
-        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])
+        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place].claimed, sum[1] + net.claims[place].shown])
     };
     let count = nets.iter().map(|net| net.claims.len()).min().unwrap_or(0);
     let all = count.checked_sub(1).map_or(0.0, |last| claims(last)[0]);

@@ -139,10 +139,9 @@ impl From<EstimateRecord> for Estimate {
 /// ```
 pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     let estimate = b.estimate - a.estimate;
-    let reach = |of_b: f64, of_a: f64| libm::hypot(of_b - b.estimate, of_a - a.estimate);
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
-        low: estimate - reach(of_b.low, of_a.high),
-        high: estimate + reach(of_b.high, of_a.low),
+        low: estimate - libm::hypot(of_b.low - b.estimate, of_a.high - a.estimate),
+        high: estimate + libm::hypot(of_b.high - b.estimate, of_a.low - a.estimate),
     });
     Estimate { estimate, interval }
 }
