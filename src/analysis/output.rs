@@ -88,27 +88,29 @@ pub(super) fn output_result(
     if !study.subject.is_external() {
         warnings.extend(unlikely::of_samples(run.design, output, &samples));
     }
-    let of_stage = |points: u64| corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref();
-    let asked = indices.as_ref().ok().filter(|_| study.analysis.convergence);
-    let convergence = asked.map_or_else(Vec::new, |all| stages(&parts, &layout, &options, all, &of_stage));
-    let failure = |(failure, tally): (RowFailure, Tally)| failure_count(run, &failure, tally);
+    let mut convergence = Vec::new();
+    if let (Ok(indices), true) = (&indices, study.analysis.convergence) {
+        let stages = stages(&parts, &layout, &options, indices, &|points| {
+            corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref()
+        });
+        convergence = stages.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect();
+    }
     let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
     let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
-    let in_unit = |x: f64| unit.from_si(x);
     let mut result = OutputResult {
         name: output.name.to_string(),
         unit: unit.to_string(),
-        mean: mean.map(|mean| in_unit(mean.estimate)).filter(|mean| mean.is_finite()),
+        mean: mean.map(|mean| unit.from_si(mean.estimate)).filter(|mean| mean.is_finite()),
         variance: variance.map(|variance| squared(variance.estimate)).filter(|variance| variance.is_finite()),
-        mean_interval: mean.and_then(|mean| mean.interval?.map(in_unit)),
+        mean_interval: mean.and_then(|mean| mean.interval?.map(|x| unit.from_si(x))),
         variance_interval: variance.and_then(|variance| variance.interval?.map(squared)),
         runs_ok: run.design.rows() - totals.runs_failed,
         runs_failed: totals.runs_failed,
         base_points_used: used.fewest(),
-        failures: totals.failures.iter().map(failure).collect(),
+        failures: totals.failures.iter().map(|(failure, tally)| failure_count(run, &failure, tally)).collect(),
         measures: rows.measured.as_ref().and_then(|rows| rows.measures(&study.analysis.measures, number, &samples)),
         surrogate_trial: corrected.trials.get(number).copied().flatten(),
-        convergence: convergence.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect(),
+        convergence,
         reason: indices.as_ref().err().map(ToString::to_string),
         warnings,
         ..OutputResult::default()
@@ -139,21 +141,23 @@ fn moments_of_all_rows(
     if values.count() == 2 * points {
         return (Some(moments.mean), Some(moments.variance));
     }
-    let changed = |of: Estimate, estimate: f64, change: &dyn Fn(f64) -> f64| {
-        Some(Estimate { estimate, interval: of.interval.and_then(|interval| interval.map(change)) })
-    };
     let shift = mean - moments.mean.estimate;
     let ratio = variance / moments.variance.estimate;
-    (changed(moments.mean, mean, &|bound| bound + shift), changed(moments.variance, variance, &|bound| bound * ratio))
+    let of_mean = moments.mean.interval.and_then(|interval| interval.map(|bound| bound + shift));
+    let of_variance = moments.variance.interval.and_then(|interval| interval.map(|bound| bound * ratio));
+    (Some(Estimate { estimate: mean, interval: of_mean }), Some(Estimate { estimate: variance, interval: of_variance }))
 }
 
 fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureCount {
-    let inputs = || named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
+    let mut first_inputs = Map::new();
+    if !run.study.analysis.salib {
+        first_inputs = named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
+    }
     FailureCount {
         reason: failure.to_string(),
         runs: tally.count,
         first_row: tally.first.row(run.design),
-        first_inputs: if run.study.analysis.salib { Map::new() } else { inputs() },
+        first_inputs,
     }
 }
 

@@ -55,12 +55,11 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
 }
 
 fn low_runs(low: &LowTotals<'_>) -> LowRuns {
-    let runs = |replicates: &[Totals]| replicates.iter().map(|totals| totals.runs).sum();
     LowRuns {
         name: low.name.to_owned(),
-        shared_runs: runs(low.shared),
+        shared_runs: low.shared.iter().map(|totals| totals.runs).sum(),
         own_base_samples: low.design.settings().base_samples,
-        own_runs: runs(low.own),
+        own_runs: low.own.iter().map(|totals| totals.runs).sum(),
     }
 }
 

@@ -5,7 +5,7 @@ use super::finished_run::FinishedRun;
 use crate::correction::SurrogateEstimates;
 use crate::effect::Effect;
 use crate::estimate::{MomentParts, Scaling, Undefined};
-use crate::model::{Model, OutputSeries};
+use crate::model::Model;
 use crate::result::{PlainIndexRecord, SeriesRecord};
 use crate::run::Totals;
 use crate::study::Study;
@@ -17,16 +17,18 @@ pub(super) fn series(
     whole: &Totals,
     surrogates: &[Option<SurrogateEstimates>],
 ) -> Vec<SeriesRecord> {
-    let of_series = |series: &OutputSeries| {
+    let mut records = Vec::new();
+    for series in run.model.series() {
         let plain = together(run, series.places(), Scaling::Plain);
-        let varies = |place: &usize| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high);
+        let varying =
+            series.places().filter(|place| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
         let corrected: Option<Vec<&SurrogateEstimates>> =
-            series.places().filter(varies).map(|place| surrogates.get(place)?.as_ref()).collect();
+            varying.map(|place| surrogates.get(place)?.as_ref()).collect();
         let all = match corrected {
             Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
             None => plain,
         };
-        SeriesRecord {
+        records.push(SeriesRecord {
             name: series.name.clone(),
             unit: run.model.outputs()[series.first].unit.to_string(),
             axis: series.axis.label().to_owned(),
@@ -35,9 +37,9 @@ pub(super) fn series(
             positions: series.axis.positions().to_vec(),
             indices: all.as_ref().ok().map(|all| together_records(run.study, all, Effect::is_factor)),
             reason: all.err().map(|undefined| undefined.to_string()),
-        }
-    };
-    run.model.series().iter().map(of_series).collect()
+        });
+    }
+    records
 }
 
 /// Computes joint indices of the outputs at `places`.
@@ -46,8 +48,8 @@ pub(super) fn together(
     places: impl Iterator<Item = usize>,
     scaling: Scaling,
 ) -> Result<AggregateIndices, Undefined> {
-    let of_output = |place: usize| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
-    let parts: Vec<Vec<&MomentParts>> = places.map(of_output).collect();
+    let parts: Vec<Vec<&MomentParts>> =
+        places.map(|place| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect()).collect();
     aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)
 }
 
@@ -65,6 +67,6 @@ pub(super) fn together_records(
 
 /// Returns the places of the outputs that belong to no series.
 pub(super) fn single_outputs(model: &dyn Model) -> Vec<usize> {
-    let single = |place: &usize| !model.series().iter().any(|series| series.places().contains(place));
-    (0..model.outputs().len()).filter(single).collect()
+    let outputs = 0..model.outputs().len();
+    outputs.filter(|place| !model.series().iter().any(|series| series.places().contains(place))).collect()
 }

@@ -60,53 +60,51 @@ fn surrogates_and_trials(
     longer: &[Option<SurrogateEstimates>],
 ) -> (Vec<Option<SurrogateEstimates>>, Vec<Option<SurrogateTrial>>) {
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
-    let first = |replicates: &[Totals], number: usize| -> Vec<PointOutputs> {
-        let kept = outputs_kept(replicates, number).into_iter();
-        kept.map(|outputs| outputs.prefix(design.points_per_replicate())).collect()
-    };
-    let kept: Vec<Vec<PointOutputs>> = (0..outputs).map(|number| first(replicates, number)).collect();
+    let points = design.points_per_replicate();
+    let kept: Vec<Vec<PointOutputs>> = (0..outputs).map(|number| first_points(replicates, number, points)).collect();
     if !study.uses_surrogate(design) || kept.iter().flatten().all(|outputs| outputs.points() == 0) {
         return (vec![None; outputs], vec![None; outputs]);
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
-    let trials = match longer {
-        [] => trials(study, design, replicates, &kept),
-        _ => vec![None; outputs],
-    };
-    let gains: Vec<bool> = match longer {
-        [] => trials.iter().map(|trial| trial.is_none_or(|trial| trial.gain > MIN_GAIN)).collect(),
-        longer => longer.iter().map(Option::is_some).collect(),
-    };
-    // Polynomials continue where runs fail, but the numbers are those of the part of the space where they succeed.
-    let is_left_out = |(outputs, gains): (&Vec<&PointOutputs>, &bool)| {
-        !gains
-            || study.analysis.surrogate != SurrogateChoice::On && outputs.iter().any(|outputs| outputs.has_failures())
-    };
-    let left_out: Vec<bool> = kept.iter().zip(&gains).map(is_left_out).collect();
-    let whole: Vec<Vec<&PointOutputs>> =
-        kept.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(outputs, _)| outputs.clone()).collect();
-    let longer: Vec<Option<SurrogateEstimates>> =
-        longer.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(of, _)| of.clone()).collect();
-    let mut of_whole = surrogates_together(design, &families, &layout, &whole, &longer).into_iter();
-    let alone: Vec<Option<SurrogateEstimates>> =
-        left_out.iter().map(|left_out| if *left_out { None } else { of_whole.next().flatten() }).collect();
-    let best = |(number, alone): (usize, Option<SurrogateEstimates>)| {
-        if left_out[number] {
-            return None;
-        }
-        let of_low = |low: &LowTotals<'_>| {
-            let own = low.outputs.get(number)?.as_ref()?;
-            let shared = first(low.shared, number);
-            let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
-            low_fidelity_estimates(design, &families, &layout, &kept[number], &low)
+    let trials = if longer.is_empty() { trials(study, design, replicates, &kept) } else { vec![None; outputs] };
+    // The outputs that are corrected. Polynomials continue where runs fail, but the numbers are those of the part of the
+    // space where they succeed.
+    let mut numbers = Vec::new();
+    for (number, replicates) in kept.iter().enumerate() {
+        let gains = match longer {
+            [] => trials[number].is_none_or(|trial| trial.gain > MIN_GAIN),
+            longer => longer[number].is_some(),
         };
-        let all = alone.into_iter().chain(lows.iter().filter_map(of_low));
-        all.min_by(|a, b| a.squared_error().total_cmp(&b.squared_error()))
-    };
+        let is_on = study.analysis.surrogate == SurrogateChoice::On;
+        if gains && (is_on || !replicates.iter().any(|outputs| outputs.has_failures())) {
+            numbers.push(number);
+        }
+    }
+    let whole: Vec<Vec<&PointOutputs>> = numbers.iter().map(|&number| kept[number].clone()).collect();
+    let longer: Vec<Option<SurrogateEstimates>> =
+        numbers.iter().filter_map(|&number| longer.get(number).cloned()).collect();
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
-    let of_rows = |of: SurrogateEstimates| SurrogateEstimates { misses_levels, ..of };
-    (alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect(), trials)
+    let mut best = vec![None; outputs];
+    let alone = surrogates_together(design, &families, &layout, &whole, &longer);
+    for (alone, number) in alone.into_iter().zip(numbers) {
+        let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
+        for low in lows {
+            if let Some(Some(own)) = low.outputs.get(number) {
+                let shared = first_points(low.shared, number, points);
+                let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
+                all.extend(low_fidelity_estimates(design, &families, &layout, &kept[number], &low));
+            }
+        }
+        let least = all.into_iter().min_by(|a, b| a.squared_error().total_cmp(&b.squared_error()));
+        best[number] = least.map(|of| SurrogateEstimates { misses_levels, ..of });
+    }
+    (best, trials)
+}
+
+/// Returns output number `number` at the first `points` base points of each replicate.
+fn first_points(replicates: &[Totals], number: usize, points: u64) -> Vec<PointOutputs> {
+    outputs_kept(replicates, number).into_iter().map(|outputs| outputs.prefix(points)).collect()
 }
 
 /// Returns the gain by surrogates of each output, if it is not known beforehand that they are worth their time, by a
@@ -120,30 +118,34 @@ fn trials(
     if !study.tries_surrogates(design) {
         return vec![None; kept.len()];
     }
-    let moments = |number: usize| replicates.iter().map(move |totals| &totals.outputs[number].moments);
-    let parts = moments(0).map(|all| all.prefix(parts_of_trial(all, design)));
-    let points = parts.map(|parts| parts.points()).min().unwrap_or(0);
+    let points = parts_of_trial(replicates, 0, design).iter().map(MomentParts::points).min().unwrap_or(0);
     let Ok(trial) = design.with_points(points) else { return vec![None; kept.len()] };
     let first: Vec<Vec<PointOutputs>> =
         kept.iter().map(|replicates| replicates.iter().map(|kept| kept.prefix(points)).collect()).collect();
     let first: Vec<Vec<&PointOutputs>> = first.iter().map(|replicates| replicates.iter().collect()).collect();
-    let found = surrogates_together(&trial, &families(&study.space), &study.layout(), &first, &[]);
-    let gains = |(number, of): (usize, &Option<SurrogateEstimates>)| {
-        let parts: Vec<MomentParts> = moments(number).map(|all| all.prefix(parts_of_trial(all, design))).collect();
-        let options = IntervalOptions { surrogate: of.as_ref(), ranks: false, ..interval_options(study) };
+    let estimates = surrogates_together(&trial, &families(&study.space), &study.layout(), &first, &[]);
+    let mut trials = Vec::with_capacity(estimates.len());
+    for (number, surrogate) in estimates.iter().enumerate() {
+        let parts = parts_of_trial(replicates, number, design);
+        let options = IntervalOptions { surrogate: surrogate.as_ref(), ranks: false, ..interval_options(study) };
         let used = output_indices(&parts, &study.layout(), &options).ok().and_then(|indices| indices.surrogate);
         let gains = used.map(|used| [used.gain_first_order, used.gain_total].map(|gain| gain.unwrap_or(0.0).sqrt()));
         let gain = gains.map_or(0.0, |[first_order, total]| first_order.min(total));
-        Some(SurrogateTrial { runs: trial.rows(), gain, needed: MIN_GAIN })
-    };
-    found.iter().enumerate().map(gains).collect()
+        trials.push(Some(SurrogateTrial { runs: trial.rows(), gain, needed: MIN_GAIN }));
+    }
+    trials
 }
 
-/// Returns the number of parts of a replicate that the trial uses.
-fn parts_of_trial(all: &MomentParts, design: &Design) -> usize {
-    let parts = all.parts().len() as u64;
-    let wanted = (TRIAL_ROWS * parts).div_ceil(design.rows()).next_power_of_two();
-    wanted.min(parts) as usize
+/// Returns the parts of every replicate of output number `number` that the trial uses.
+fn parts_of_trial(replicates: &[Totals], number: usize, design: &Design) -> Vec<MomentParts> {
+    let mut prefixes = Vec::with_capacity(replicates.len());
+    for totals in replicates {
+        let all = &totals.outputs[number].moments;
+        let parts = all.parts().len() as u64;
+        let wanted = (TRIAL_ROWS * parts).div_ceil(design.rows()).next_power_of_two();
+        prefixes.push(all.prefix(wanted.min(parts) as usize));
+    }
+    prefixes
 }
 
 /// The surrogate estimates of every output, at the end and at every stage of the run.

@@ -33,12 +33,16 @@ pub fn aggregated<'a>(
     }
     // Relative to the largest, so that variances near the limits of `f64` can be added.
     let largest = varying.iter().map(|(variance, _)| *variance).fold(0.0, f64::max);
-    let weight = |variance: f64| match scaling {
-        Scaling::Plain => variance / largest,
-        Scaling::Standardised => 1.0,
-    };
-    let sum: f64 = varying.iter().map(|(variance, _)| weight(*variance)).sum();
-    let count = varying.first().ok_or(Undefined::ZeroVariance)?.1.len();
-    let mean = |place: usize| varying.iter().map(|(v, indices)| weight(*v) * indices[place]).sum::<f64>() / sum;
-    Ok((0..count).map(mean).collect())
+    for (weight, _) in &mut varying {
+        *weight = match scaling {
+            Scaling::Plain => *weight / largest,
+            Scaling::Standardised => 1.0,
+        };
+    }
+    let sum: f64 = varying.iter().map(|(weight, _)| *weight).sum();
+    let mut means = vec![0.0; varying.first().ok_or(Undefined::ZeroVariance)?.1.len()];
+    for (at, mean) in means.iter_mut().enumerate() {
+        *mean = varying.iter().map(|(weight, indices)| weight * indices[at]).sum::<f64>() / sum;
+    }
+    Ok(means)
 }

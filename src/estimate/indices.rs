@@ -52,11 +52,11 @@ impl Indices {
             }
             usable_variance(&swap.base)?;
         }
-        let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
+        let swaps = 0..moments.swaps();
         let indices = Self {
-            first_order: each(&|j| first_order.estimate(moments, j)),
-            total: each(&|j| total.estimate(moments, j)),
-            check: each(&|j| FirstOrder::JanonMonod2014.estimate(moments, j)),
+            first_order: swaps.clone().map(|j| first_order.estimate(moments, j)).collect(),
+            total: swaps.clone().map(|j| total.estimate(moments, j)).collect(),
+            check: swaps.map(|j| FirstOrder::JanonMonod2014.estimate(moments, j)).collect(),
         };
         let Self { first_order, total, .. } = &indices;
         if first_order.iter().chain(total).all(|index| index.is_finite()) {

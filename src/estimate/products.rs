@@ -61,8 +61,11 @@ impl Products {
         let own: Vec<bool> = (0..whole.swaps()).map(|swap| whole.swap(swap).base.n != count).collect();
         let paired = whole.pairs().map_or(&[][..], PairMoments::swaps);
         let ordered = paired.iter().flat_map(|&j| paired.iter().filter(move |k| **k != j).map(move |&k| (j, k)));
-        let points = |j, k| whole.pairs().and_then(|pairs| pairs.mean(j, k)).map_or(0, |(_, points)| points);
-        let pairs: Vec<(usize, usize, bool)> = ordered.map(|(j, k)| (j, k, points(j, k) != count)).collect();
+        let mut pairs = Vec::new();
+        for (j, k) in ordered {
+            let points = whole.pairs().and_then(|pairs| pairs.mean(j, k)).map_or(0, |(_, points)| points);
+            pairs.push((j, k, points != count));
+        }
         let columns = BASE.len()
             + own.iter().map(|own| of_swap.len() + if *own { BASE.len() } else { 0 }).sum::<usize>()
             + pairs.iter().map(|(_, _, own)| 1 + usize::from(*own)).sum::<usize>();
@@ -170,11 +173,11 @@ impl Products {
         });
         let swaps = swaps.collect();
         let pairs = self.whole.pairs().map(|whole| {
-            let of_pair = |(_, _, own): &(usize, usize, bool)| {
+            let means = self.pairs.iter().map(|(_, _, own)| {
                 let n = if *own { next().round() } else { base.0.n as f64 };
                 (if n > 0.0 { next() / n } else { next() * 0.0 }, n as u64)
-            };
-            PairMoments::from_means(whole.swaps(), self.pairs.iter().map(of_pair))
+            });
+            PairMoments::from_means(whole.swaps(), means)
         });
         Moments::from_sums(base.0, swaps, pairs)
     }

@@ -8,9 +8,8 @@ pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
 /// Returns the proper subsets of `factors` factors with at least two elements, in rising order of their bit mask.
 pub fn proper_subsets(factors: usize) -> Vec<Vec<usize>> {
-    let all = 1usize << factors;
-    let of = |mask: usize| (0..factors).filter(|factor| mask >> factor & 1 == 1).collect::<Vec<usize>>();
-    (0..all).map(of).filter(|subset| subset.len() > 1 && subset.len() < factors).collect()
+    let masks = (0..1usize << factors).filter(|mask| (2..factors as u32).contains(&mask.count_ones()));
+    masks.map(|mask| (0..factors).filter(|factor| mask >> factor & 1 == 1).collect()).collect()
 }
 
 /// Computes the Shapley effects of factors from c(u) = E Var(Y | all factors but u)/Var(Y) of all subsets u: the mean,
@@ -33,11 +32,13 @@ pub fn shapley_effects(single: &[f64], proper: &[f64]) -> Vec<f64> {
     for size in 1..factors {
         weights[size] = weights[size - 1] * size as f64 / (factors - size) as f64;
     }
-    let effect = |factor: usize| {
-        let without = (0..costs.len()).filter(|mask| mask >> factor & 1 == 0);
-        without.map(|mask| weights[mask.count_ones() as usize] * (costs[mask | 1 << factor] - costs[mask])).sum()
-    };
-    (0..factors).map(effect).collect()
+    let mut effects = vec![0.0; factors];
+    for (factor, effect) in effects.iter_mut().enumerate() {
+        for mask in (0..costs.len()).filter(|mask| mask >> factor & 1 == 0) {
+            *effect += weights[mask.count_ones() as usize] * (costs[mask | 1 << factor] - costs[mask]);
+        }
+    }
+    effects
 }
 
 #[cfg(test)]

@@ -114,8 +114,7 @@ impl SwapMoments {
 
     /// Returns whether no row of the swap differs from its original row: the swapped columns have no effect.
     pub fn inert(&self) -> bool {
-        let is_zero = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
-        is_zero(self.mean_d, self.dd) && self.ba.is_none_or(|ba| is_zero(ba.mean_e, ba.ee))
+        self.mean_d == 0.0 && self.dd == 0.0 && self.ba.is_none_or(|ba| ba.mean_e == 0.0 && ba.ee == 0.0)
     }
 
     /// Returns the number of base points, as a divisor.
@@ -150,8 +149,8 @@ impl<'a> Columns<'a> {
         for (kept, column) in kept.iter_mut().zip(columns) {
             kept.clear();
             let rows = column.into_iter().flatten().enumerate();
-            let complete = |row: usize| columns.iter().flatten().all(|column| column[row].is_finite());
-            kept.extend(rows.filter(|(row, _)| complete(*row)).map(|(_, y)| y));
+            let complete = rows.filter(|(row, _)| columns.iter().flatten().all(|column| column[*row].is_finite()));
+            kept.extend(complete.map(|(_, y)| y));
         }
         let [a, b, ab, ba] = &*kept;
         Columns { a, b, ab, ba: self.ba.map(|_| &ba[..]) }
