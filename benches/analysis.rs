@@ -12,8 +12,8 @@ use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Ro
 use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
 use apportion::run::BLOCK;
 use apportion::surrogate::basis::{Caps, Family};
-use apportion::surrogate::carried::Carried;
 use apportion::surrogate::fit::{MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
+use apportion::surrogate::identifiable::IdentifiableTerms;
 use apportion::surrogate::net::Net;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use outputs::{Outputs, design, function};
@@ -80,13 +80,13 @@ fn surrogate(criterion: &mut Criterion) {
                         Net::new(design, 0, 0..outputs[0].len(), &families, caps.degree, outputs)
                     };
                     let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
-                    let carried = Carried::new(&nets, caps);
-                    let candidates = first_candidates(&carried, rows as usize);
+                    let identifiable = IdentifiableTerms::new(&nets, caps);
+                    let candidates = first_candidates(&identifiable, rows as usize);
                     let most = selection_rows(nets.len());
                     let nets: Vec<Training> = nets.iter().map(Training::new).collect();
                     let sums: Vec<NetSums> = nets.iter().map(|net| NetSums::new(net, &candidates, most)).collect();
                     let all: Vec<&Training> = nets.iter().collect();
-                    fit(&all, (&candidates, &sums.iter().collect::<Vec<_>>()), &carried, MAX_ROUNDS)
+                    fit(&all, &candidates, &sums.iter().collect::<Vec<_>>(), &identifiable, MAX_ROUNDS)
                 })
             });
         });

@@ -9,7 +9,7 @@ use crate::estimate::{MomentParts, PointOutputs};
 use crate::result::{RareLevel, SurrogateTrial};
 use crate::run::Totals;
 use crate::study::{Study, SurrogateChoice};
-use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
+use crate::surrogate::low_fidelity::{LowFidelityOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{IntervalOptions, SurrogateEstimates, output_indices, points_of_stages};
 
@@ -96,7 +96,7 @@ fn surrogates_and_trials(
         let of_low = |low: &LowTotals<'_>| {
             let own = low.outputs.get(number)?.as_ref()?;
             let shared = first(low.shared, number);
-            let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
+            let low = LowFidelityOutputs { name: low.name, shared: shared.iter().collect(), independent: own };
             low_fidelity_estimates(design, &families, &layout, &kept[number], &low)
         };
         let all = alone.into_iter().chain(lows.iter().filter_map(of_low));

@@ -5,26 +5,28 @@
 //! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 pub mod basis;
-pub mod beyond;
-pub mod carried;
-pub mod corrected;
+pub(crate) mod corrected;
+pub(crate) mod extrapolation;
 pub mod fit;
-pub mod gram;
-pub mod knots;
-pub mod low_fidelity;
+mod gram;
+pub mod identifiable;
+mod knots;
+pub(crate) mod low_fidelity;
+mod many_outputs;
 pub mod net;
-mod own;
-mod together;
+mod orthogonal;
+mod outputs;
 
 use basis::{Caps, Family, Term, add_to};
-use beyond::Beyond;
-use carried::Carried;
 use corrected::{Contributions, Effects};
-use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows, without};
+use extrapolation::ExtrapolationError;
+use fit::{Expansion, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows, without};
+use identifiable::IdentifiableTerms;
+use many_outputs::fit_outputs;
+pub(crate) use many_outputs::surrogates_together;
 use net::Net;
+use outputs::{Scale, ScaledOutput};
 use rayon::prelude::*;
-pub use together::surrogates_together;
-use together::{good_points, of_neighbours};
 
 use crate::design::{Design, Sampler};
 use crate::estimate::PointOutputs;
@@ -88,8 +90,8 @@ pub fn surrogate_estimates(
     if !takes_surrogates(design, replicates.len()) {
         return None;
     }
-    let scaled = scaled(replicates, design.runs().len(), None)?;
-    of_neighbours(design, families, layout, &good_points(&scaled), &[&scaled], chosen).pop().flatten()
+    let output = ScaledOutput::new(replicates, design.runs().len(), None)?;
+    fit_outputs(design, families, layout, &output.complete_points(), &[&output], chosen).pop().flatten()
 }
 
 /// Returns whether there are enough nets, and the points are nets.
@@ -115,26 +117,23 @@ pub struct Trial {
 
 /// Returns the trials for factors with the polynomials `families`, in order.
 pub fn trials(families: &[Family]) -> Vec<Trial> {
-    let trial = |families: &[Family], hermite_degree: usize, ratio: f64| Trial {
-        families: families.to_vec(),
-        hermite_degree,
-        ratio,
-    };
-    let mut trials = vec![trial(families, SAFE_HERMITE_DEGREES, 1.0)];
-    if families.contains(&Family::Hermite) {
-        let of_quantiles = |family: &Family| if *family == Family::Hermite { Family::Legendre } else { family.clone() };
-        let bounded: Vec<Family> = families.iter().map(of_quantiles).collect();
-        trials.push(trial(&bounded, 0, 1.0));
-        trials.push(trial(families, MAX_HERMITE_DEGREES, CLEARLY_LESS));
+    let safe = Trial { families: families.to_vec(), hermite_degree: SAFE_HERMITE_DEGREES, ratio: 1.0 };
+    if !families.contains(&Family::Hermite) {
+        return vec![safe];
     }
-    trials
+    let mut bounded = Trial { hermite_degree: 0, ..safe.clone() };
+    for family in bounded.families.iter_mut().filter(|family| **family == Family::Hermite) {
+        *family = Family::Legendre;
+    }
+    let steep = Trial { hermite_degree: MAX_HERMITE_DEGREES, ratio: CLEARLY_LESS, ..safe.clone() };
+    vec![safe, bounded, steep]
 }
 
 /// Every net, corrected by a surrogate of the others.
 struct Corrected {
     nets: Vec<Contributions>,
     expansions: Vec<Expansion>,
-    beyond: Beyond,
+    extrapolation: ExtrapolationError,
 }
 
 impl Corrected {
@@ -146,24 +145,25 @@ impl Corrected {
         families: &[Family],
         effects: &Effects,
     ) -> Self {
-        let (rest, _) = residual_powers(&nets);
-        let beyond = Beyond::new(&expansions, families, design.settings().base_samples, rest, effects);
-        Self { nets, expansions, beyond }
+        let (rest, points) = (mean_square_residual(&nets), design.settings().base_samples);
+        let extrapolation = ExtrapolationError::new(&expansions, families, points, rest, effects);
+        Self { nets, expansions, extrapolation }
     }
 
     /// Returns the mean square of the residuals.
     fn residual(&self) -> f64 {
-        residual_powers(&self.nets).0
+        mean_square_residual(&self.nets)
     }
 
     /// Returns the same plus the error that no runs show.
     fn unknown(&self) -> f64 {
-        self.residual() + self.beyond.variance
+        self.residual() + self.extrapolation.variance
     }
 
     /// Returns whether a few rows dominate the residuals, and these matter.
     fn is_heavy_tailed(&self) -> bool {
-        let (two, four) = residual_powers(&self.nets);
+        let two = self.residual();
+        let four = self.nets.iter().map(|net| net.residual.1).sum::<f64>() / self.nets.len() as f64;
         let rows: usize = self.nets.iter().map(|net| net.rows).sum();
         // Outputs have variance 1.
         two > RESIDUAL && 3.0 * rows as f64 * two * two < MIN_EFFECTIVE_ROWS * four
@@ -188,35 +188,37 @@ fn in_chunks(points: usize, of: impl Fn(std::ops::Range<usize>) -> Contributions
     all
 }
 
-/// Returns the mean square and mean fourth power of the residuals of `nets`.
-fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
-    let (two, four) = nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
-    (two / nets.len() as f64, four / nets.len() as f64)
+/// Returns the mean square of the residuals of `nets`.
+fn mean_square_residual(nets: &[Contributions]) -> f64 {
+    nets.iter().map(|net| net.residual.0).sum::<f64>() / nets.len() as f64
 }
 
 /// Returns for every net the expansion fitted to the others.
-pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
+pub(crate) fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_to_others(nets, &training, caps, None).iter().map(|expansions| expansions.of_output(0)).collect()
+    fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
 }
 
-/// Returns for every net the expansions fitted to the `training` runs of the others; in one round of few candidates if
-/// a longer run has `chosen` terms for each net.
+/// Returns for every net the expansions of all outputs fitted to the `training` runs of the others; in one round of few
+/// candidates if a longer run has `chosen` terms for each net.
 fn fitted_to_others(
     nets: &[Net],
     training: &[Training<'_>],
     caps: Caps<'_>,
     chosen: Option<&[Vec<Term>]>,
-) -> Vec<Expansions> {
-    let carried = Carried::new(nets, caps);
+) -> Vec<Vec<Expansion>> {
+    let identifiable = IdentifiableTerms::new(nets, caps);
     if let Some(chosen) = chosen {
-        let of_net = |k: usize| fitted_without(training, k, &carried.retain(chosen[k].clone()), &carried, 1);
-        return (0..nets.len()).into_par_iter().map(of_net).collect();
+        let fits = chosen.par_iter().enumerate();
+        let fits =
+            fits.map(|(k, terms)| fitted_without(training, k, &identifiable.retain(terms.clone()), &identifiable, 1));
+        return fits.collect();
     }
-    let (candidates, rows) = (first_round(nets, &carried), selection_rows(nets.len() - 1));
+    let (candidates, rows) = (first_round(nets, &identifiable), selection_rows(nets.len() - 1));
     let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), &carried, MAX_ROUNDS);
-    (0..nets.len()).into_par_iter().map(of_net).collect()
+    let fits = (0..nets.len()).into_par_iter();
+    let fits = fits.map(|k| fit(&without(training, k), &candidates, &without(&sums, k), &identifiable, MAX_ROUNDS));
+    fits.collect()
 }
 
 /// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates`
@@ -225,92 +227,78 @@ fn fitted_without(
     training: &[Training<'_>],
     k: usize,
     candidates: &[Term],
-    carried: &Carried<'_>,
+    identifiable: &IdentifiableTerms<'_>,
     max_rounds: usize,
-) -> Expansions {
+) -> Vec<Expansion> {
     let (others, rows) = (without(training, k), selection_rows(training.len() - 1));
     let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, candidates, rows)).collect();
-    fit(&others, (candidates, &sums.iter().collect::<Vec<_>>()), carried, max_rounds)
+    fit(&others, candidates, &sums.iter().collect::<Vec<_>>(), identifiable, max_rounds)
 }
 
 /// Returns the expansion fitted to all nets except number `k`.
 fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
-    let carried = Carried::new(nets, caps);
+    let identifiable = IdentifiableTerms::new(nets, caps);
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_without(&training, k, &first_round(nets, &carried), &carried, MAX_ROUNDS).of_output(0)
+    fitted_without(&training, k, &first_round(nets, &identifiable), &identifiable, MAX_ROUNDS).swap_remove(0)
 }
 
 /// Returns the candidates of the first round.
-fn first_round(nets: &[Net], carried: &Carried<'_>) -> Vec<Term> {
+fn first_round(nets: &[Net], identifiable: &IdentifiableTerms<'_>) -> Vec<Term> {
     let training = nets.len() - 1;
     let rows = selection_rows(training);
     let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    first_candidates(carried, all_rows)
+    first_candidates(identifiable, all_rows)
 }
 
-/// Returns the outputs of every run, a column for each.
-fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
-    let mut columns = vec![Vec::with_capacity(kept.points() as usize); runs];
-    for block in kept.blocks(u64::MAX) {
-        columns.iter_mut().zip(block).for_each(|(column, more)| column.extend_from_slice(more));
+/// The contributions of every net, and of every net of a low-fidelity model.
+struct AllContributions<'a> {
+    nets: &'a [Contributions],
+    low: &'a [Contributions],
+}
+
+impl AllContributions<'_> {
+    /// Returns the mean over all points of a number with the contributions `column`, and its extrapolation error.
+    fn mean(&self, extrapolation: f64, column: impl Fn(&Contributions) -> &Vec<f64>) -> Influenced {
+        let (mean, parts) = mean_and_influences(self.nets.iter().map(|net| column(net).clone()).collect());
+        let (of_low, low) = mean_and_influences(self.low.iter().map(|net| column(net).clone()).collect());
+        Influenced { estimate: mean + of_low, parts, low, beyond: extrapolation }
     }
-    columns
+
+    /// Returns the indices with the contributions `columns`.
+    fn indices(
+        &self,
+        variance: &Influenced,
+        extrapolation: &[f64],
+        columns: impl Fn(&Contributions) -> &[Vec<f64>],
+    ) -> Vec<Influenced> {
+        let errors = extrapolation.iter().enumerate();
+        errors.map(|(k, &error)| self.mean(error, |net| &columns(net)[k]).over(variance)).collect()
+    }
 }
 
-/// Outputs of every replicate and run, standardised, and their mean and standard deviation, or a given scale.
-type Scaled = (Vec<Vec<Vec<f64>>>, (f64, f64));
-
-fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) -> Option<Scaled> {
-    let mut outputs: Vec<Vec<Vec<f64>>> = replicates.iter().map(|kept| columns(kept, runs)).collect();
-    let finite = || outputs.iter().flatten().flatten().copied().filter(|y| y.is_finite()).collect::<Vec<f64>>();
-    let (mean, sd) = scale.map_or_else(|| mean_and_sd(&finite()), Some)?;
-    outputs.iter_mut().flatten().flatten().for_each(|y| *y = (*y - mean) / sd);
-    Some((outputs, (mean, sd)))
-}
-
-/// Returns the mean and standard deviation; `None` if all values are equal, or there are none.
-fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
-    let mean = apportion_base::sum::mean(values);
-    let size = values.iter().fold(0.0, |largest: f64, y| largest.max((y - mean).abs()));
-    // In units of the largest deviation, so that squares neither underflow nor overflow.
-    let square = |y: &f64| ((y - mean) / size).powi(2);
-    let sd = size * (values.iter().map(square).sum::<f64>() / values.len() as f64).sqrt();
-    (size > 0.0 && sd.is_finite() && mean.is_finite()).then_some((mean, sd))
+/// Returns the mean of all `columns`, one for each net, and the influences of their parts.
+fn mean_and_influences(columns: Vec<Vec<f64>>) -> (f64, PartInfluences) {
+    let count: usize = columns.iter().map(Vec::len).sum();
+    let mean = columns.iter().flatten().sum::<f64>() / count.max(1) as f64;
+    let mut parts = in_parts(&columns);
+    parts.iter_mut().flatten().for_each(|x| *x -= mean);
+    (mean, parts)
 }
 
 /// Returns the means over all points with the influences of each part; adds those of `low`, a low-fidelity model.
-fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64)) -> SurrogateEstimates {
-    let Corrected { nets, expansions, beyond } = corrected;
-    let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
-        let columns: Vec<Vec<f64>> = nets.iter().map(|net| column(net).clone()).collect();
-        let count: usize = columns.iter().map(Vec::len).sum();
-        let mean = columns.iter().flatten().sum::<f64>() / count.max(1) as f64;
-        let parts: PartInfluences =
-            in_parts(&columns).into_iter().map(|net| net.into_iter().map(|x| x - mean).collect()).collect();
-        (mean, parts)
-    };
-    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>, beyond: f64| {
-        let ((mean, parts), (of_low, low)) = (of_nets(nets, column), of_nets(low, column));
-        Influenced { estimate: mean + of_low, parts, low, beyond }
-    };
-    let variance = gathered(&|net| &net.variance, beyond.variance);
-    let indices = |column: &dyn Fn(&Contributions) -> &Vec<Vec<f64>>, beyond: &[f64]| -> Vec<Influenced> {
-        let index = |(k, &beyond): (usize, &f64)| gathered(&|net| &column(net)[k], beyond).over(&variance);
-        beyond.iter().enumerate().map(index).collect()
-    };
-    let first_order = indices(&|net| &net.first_order, &beyond.first_order);
-    let second_order = indices(&|net| &net.pairs, &beyond.pairs);
-    let forms = [0, 1].map(|form| indices(&|net| &net.total[form], &beyond.total));
+fn estimates(corrected: &Corrected, low: &[Contributions], Scale { mean, sd }: Scale) -> SurrogateEstimates {
+    let Corrected { nets, expansions, extrapolation } = corrected;
+    let all = AllContributions { nets, low };
+    let variance = all.mean(extrapolation.variance, |net| &net.variance);
+    let scaled_mean = all.mean(extrapolation.mean, |net| &net.mean);
+    let forms = [0, 1].map(|form| all.indices(&variance, &extrapolation.total, |net| &net.total[form]));
     let weight = weight_of_second(&forms);
-    let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
-    let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();
-    let scaled =
-        |of: Influenced, offset: f64, scale: f64| Influenced::linear(offset + scale * of.estimate, &[(scale, &of)]);
+    let forms = forms[0].iter().zip(&forms[1]);
     SurrogateEstimates {
-        first_order,
-        total,
-        second_order,
-        mean: scaled(gathered(&|net| &net.mean, beyond.mean), mean, sd),
+        first_order: all.indices(&variance, &extrapolation.first_order, |net| &net.first_order),
+        total: forms.map(|(a, b)| Influenced::combined(&[(1.0 - weight, a), (weight, b)])).collect(),
+        second_order: all.indices(&variance, &extrapolation.pairs, |net| &net.pairs),
+        mean: Influenced::linear(mean + sd * scaled_mean.estimate, &[(sd, &scaled_mean)]),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
         chosen: None,
@@ -318,20 +306,24 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         growth: growth(nets),
         terms: leading_terms(expansions, variance.estimate),
         term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
-        variance: scaled(variance, 0.0, sd * sd),
+        variance: Influenced::linear(sd * sd * variance.estimate, &[(sd * sd, &variance)]),
         low: None,
     }
 }
 
 /// Returns the largest ratio of the claimed variance to that over the rows, for all factors and those that matter.
 fn growth(nets: &[Contributions]) -> f64 {
-    let claims = |place: usize| {
-        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])
-    };
     let count = nets.iter().map(|net| net.claims.len()).min().unwrap_or(0);
-    let all = count.checked_sub(1).map_or(0.0, |last| claims(last)[0]);
-    let ratio = |[claimed, seen]: [f64; 2]| if claimed > MATTERS * all { claimed / seen } else { 0.0 };
-    (0..count).map(|place| ratio(claims(place))).fold(0.0, f64::max)
+    let mut sums = vec![[0.0; 2]; count];
+    for net in nets {
+        for (sum, claim) in sums.iter_mut().zip(&net.claims) {
+            *sum = [sum[0] + claim[0], sum[1] + claim[1]];
+        }
+    }
+    // The last one is that of all factors.
+    let all = sums.last().map_or(0.0, |[claimed, _]| *claimed);
+    let matters = sums.iter().filter(|[claimed, _]| *claimed > MATTERS * all);
+    matters.map(|[claimed, seen]| claimed / seen).fold(0.0, f64::max)
 }
 
 /// Returns the weight of the second form of the total indices with the least spread within the nets, over all swaps.
@@ -340,8 +332,7 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
     for (a, b) in first.iter().zip(second) {
         for (a, b) in a.parts.iter().chain(&a.low).zip(b.parts.iter().chain(&b.low)) {
             let n = a.len() as f64;
-            let mean = |list: &[f64]| list.iter().sum::<f64>() / n;
-            let (mean_a, mean_b) = (mean(a), mean(b));
+            let (mean_a, mean_b) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);
             for (a, b) in a.iter().zip(b) {
                 let difference = (b - mean_b) - (a - mean_a);
                 covariance += difference * (a - mean_a);
@@ -353,10 +344,10 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
 }
 
 /// Returns the terms of all surrogates by their mean share of the variance.
-pub fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
+pub(crate) fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
     let mut terms: Vec<(&Term, f64)> = Vec::new();
     for expansion in expansions {
-        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
+        for (term, b) in expansion.varying() {
             let share = b * b / variance / expansions.len() as f64;
             add_to(&mut terms, term, share);
         }

@@ -20,8 +20,8 @@ use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
-use crate::surrogate::beyond::Beyond;
 use crate::surrogate::corrected::Effects;
+use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, leading_terms};
@@ -189,7 +189,7 @@ struct Job<'a> {
 struct Fitted {
     folds: Vec<FoldSums>,
     expansions: Vec<Expansion>,
-    beyond: Beyond,
+    beyond: ExtrapolationError,
     polynomials_of: &'static str,
 }
 
@@ -253,7 +253,7 @@ impl Job<'_> {
         let folds: Vec<FoldSums> = nets.par_iter().zip(&expansions).map(of_fold).collect();
         let rows = self.folds.iter().sum::<usize>() as u64;
         let effects = Effects { swaps: (0..caps.families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
-        let beyond = Beyond::new(&expansions, caps.families, rows, left_square(&folds), &effects);
+        let beyond = ExtrapolationError::new(&expansions, caps.families, rows, left_square(&folds), &effects);
         Fitted { folds, expansions, beyond, polynomials_of: coordinates.name }
     }
 }

@@ -39,6 +39,6 @@ fn a_small_step_next_to_a_hinge_shifts_the_kink() {
     // Functions 2 and 3 are the hinge and the step, each minus its part in the earlier ones.
     let third = step / own.rows[3][3];
     let second = (slope - third * own.rows[3][2]) / own.rows[2][2];
-    let moved = own.kinks(&[(2, second), (3, third)]);
-    assert!((moved[0].u - 0.8).abs() < 1e-9 && (moved[0].width - 0.01).abs() < 1e-9, "{moved:?}");
+    let moved = own.placed_kink(0, &[(2, second), (3, third)]);
+    assert!((moved.u - 0.8).abs() < 1e-9 && (moved.width - 0.01).abs() < 1e-9, "{moved:?}");
 }
