@@ -8,7 +8,7 @@ pub mod basis;
 pub(crate) mod corrected;
 pub(crate) mod extrapolation;
 pub mod fit;
-mod gram;
+pub(crate) mod gram;
 pub mod identifiable;
 mod knots;
 pub(crate) mod low_fidelity;
@@ -36,7 +36,7 @@ use crate::uncertainty::{
 };
 
 /// Minimum number of nets: the number of terms of a surrogate of the others is chosen by leaving out one of them.
-pub const MIN_NETS: usize = 3;
+pub(crate) const MIN_NETS: usize = 3;
 
 /// Minimum number of base points of a net.
 const MIN_POINTS: usize = 4;
@@ -64,7 +64,7 @@ const MATTERS: f64 = 0.02;
 
 /// Maximum number of rows of all nets together to which surrogates are fitted: more hardly change the coefficients of
 /// about a hundred terms, and the residuals of an expansion are computed from all rows.
-pub const MAX_FITTED_ROWS: u64 = 1 << 16;
+pub(crate) const MAX_FITTED_ROWS: u64 = 1 << 16;
 
 /// Number of base points corrected at a time if there are more than the surrogates are fitted to.
 const CHUNK: usize = 1 << 13;
@@ -73,14 +73,14 @@ const CHUNK: usize = 1 << 13;
 const MAX_LEADING_TERMS: usize = 12;
 
 /// Returns the polynomials of every factor of `space`.
-pub fn families(space: &Space) -> Vec<Family> {
+pub(crate) fn families(space: &Space) -> Vec<Family> {
     space.factors().iter().map(|factor| Family::new(factor.distribution())).collect()
 }
 
 /// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms
 /// that a longer run has `chosen` if there is one; `None` if there are too few nets or points, the points are not
 /// Sobol' nets, or an output has no variance.
-pub fn surrogate_estimates(
+pub(crate) fn surrogate_estimates(
     design: &Design,
     families: &[Family],
     layout: &Layout,
@@ -100,13 +100,13 @@ fn takes_surrogates(design: &Design, replicates: usize) -> bool {
 }
 
 /// Returns the minimum number of base points of a net of `design` to which surrogates are fitted.
-pub fn fewest_points(design: &Design) -> usize {
+pub(crate) fn fewest_points(design: &Design) -> usize {
     if design.plain_rows() > 0 { MIN_POINTS_WITH_PLAIN_ROWS } else { MIN_POINTS }
 }
 
 /// A set of polynomials to try.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trial {
+pub(crate) struct Trial {
     /// The polynomials of every factor.
     pub families: Vec<Family>,
     /// Maximum sum of degrees of Hermite polynomials in a term.
@@ -116,7 +116,7 @@ pub struct Trial {
 }
 
 /// Returns the trials for factors with the polynomials `families`, in order.
-pub fn trials(families: &[Family]) -> Vec<Trial> {
+pub(crate) fn trials(families: &[Family]) -> Vec<Trial> {
     let safe = Trial { families: families.to_vec(), hermite_degree: SAFE_HERMITE_DEGREES, ratio: 1.0 };
     if !families.contains(&Family::Hermite) {
         return vec![safe];

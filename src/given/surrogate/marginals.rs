@@ -1,6 +1,6 @@
 //! Influences of the rows on indices through the distributions of the inputs, if these are those of the columns.
 //!
-//! The polynomials of a column are orthonormal in its own distribution, so that the variances of an expansion are those
+//! The polynomials of a column are orthonormal in its distribution, so that the variances of an expansion are those
 //! under the distributions of the table. Other rows would give others. With g = sum b_a phi_a minus its constant, V_u =
 //! E g_u^2 the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by
 //! the n-th part of
@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use super::contributions::{Contributions, To};
 use crate::surrogate::basis::Term;
 use crate::surrogate::fit::Expansion;
+use crate::surrogate::gram::add_scaled;
 use crate::surrogate::net::Net;
 
 /// The terms of an expansion that differ only in the degree of one input.
@@ -29,14 +30,13 @@ struct Alike {
 }
 
 fn alike(expansion: &Expansion) -> BTreeMap<(usize, Term), Alike> {
-    let pairs = || expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty());
-    let known: BTreeMap<&Term, f64> = pairs().map(|(term, b)| (term, *b)).collect();
+    let coefficients: BTreeMap<&Term, f64> = expansion.varying().collect();
     let mut groups: BTreeMap<(usize, Term), Alike> = BTreeMap::new();
-    for (term, &b) in pairs() {
+    for (term, b) in expansion.varying() {
         for (place, &(input, degree)) in term.iter().enumerate() {
             let mut rest = term.clone();
             rest.remove(place);
-            let without = known.get(&rest).copied().unwrap_or(0.0);
+            let without = coefficients.get(&rest).copied().unwrap_or(0.0);
             let group = groups.entry((input, rest.clone())).or_insert(Alike { rest, without, degrees: Vec::new() });
             group.degrees.push((degree, b));
         }
@@ -51,7 +51,7 @@ pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contribu
         let mut sums = vec![0.0; net.points()];
         for &(degree, b) in &group.degrees {
             net.fill(&vec![(*input, degree)], 0, &mut values);
-            sums.iter_mut().zip(&values).for_each(|(sum, p)| *sum += b * p);
+            add_scaled(&mut sums, b, &values);
         }
         let variance: f64 = group.degrees.iter().map(|(_, b)| b * b).sum();
         let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
