@@ -66,7 +66,7 @@ impl Family {
 
     /// Returns its polynomials without steps and kinks.
     pub fn smooth(&self) -> &Self {
-        if let Self::Knotted(knotted) = self { knotted.base() } else { self }
+        if let Self::Knotted(knotted) = self { &knotted.base } else { self }
     }
 
     /// Returns the largest available degree.
@@ -306,7 +306,7 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
         Family::Orthogonal(polynomials) => polynomials.columns(u),
-        Family::Knotted(knotted) => knotted.columns(polynomials(knotted.base(), u, knotted.degree()), degree),
+        Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
         Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();

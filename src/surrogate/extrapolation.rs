@@ -80,7 +80,7 @@ impl Tail {
     /// Returns the steps and kinks of a factor with functions of `family`.
     fn knots(family: &Family) -> Vec<Self> {
         let Family::Knotted(knotted) = family else { return Vec::new() };
-        let sides = knotted.knots().iter().map(|knot| {
+        let sides = knotted.knots.iter().map(|knot| {
             let [before, after] =
                 [-KNOT_SIDE, KNOT_SIDE].map(|by| polynomials(family, &[knot.u + by], knotted.degree()));
             Self { weights: vec![knot.width / 12.0f64.sqrt()], values: before, tangents: after }

@@ -75,7 +75,6 @@ impl NetSums {
     pub fn new(of: &Training<'_>, terms: &[Term], max_rows: usize) -> Self {
         let rows = of.net.spaced_rows(max_rows);
         let columns: Vec<Vec<f64>> = terms.iter().map(|term| of.net.at(term, &rows)).collect();
-        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let mut gram = Square::zeros(terms.len());
         gram.add_products(&columns);
         let (mut right, mut squares) = (Vec::new(), Vec::new());
@@ -95,7 +94,7 @@ pub fn selection_rows(nets: usize) -> usize {
 
 /// Returns the candidates of the first round, if `rows` rows choose among them.
 pub fn first_candidates(identifiable: &IdentifiableTerms<'_>, rows: usize) -> Vec<Term> {
-    let caps = identifiable.caps();
+    let caps = identifiable.caps;
     identifiable.retain(first_terms(caps, caps.terms.min(20.max(2 * rows))))
 }
 
@@ -109,7 +108,7 @@ pub fn fit(
     identifiable: &IdentifiableTerms<'_>,
     max_rounds: usize,
 ) -> Vec<Expansion> {
-    let caps = identifiable.caps();
+    let caps = identifiable.caps;
     let max_rounds = max_rounds.min(if caps.families.len() <= 10 { MAX_ROUNDS } else { 2 });
     let rows = selection_rows(training.len());
     let mut rounds = vec![Selection::new(candidates, sums)];
@@ -142,11 +141,7 @@ pub fn fit(
 
 /// Returns the index of the smallest number, the first one of equals.
 fn first_smallest(numbers: impl Iterator<Item = f64>) -> usize {
-    let mut smallest = (0, f64::INFINITY);
-    for (place, number) in numbers.enumerate() {
-        smallest = if number < smallest.1 { (place, number) } else { smallest };
-    }
-    smallest.0
+    numbers.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(place, _)| place)
 }
 
 /// Returns the members of `list` except number `left_out`.
@@ -204,7 +199,7 @@ impl Selection {
                 for (column, term) in columns.iter_mut().zip(terms) {
                     net.fill(term, run, column);
                 }
-                gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
+                gram.add_products(&columns);
                 for ((right, size), output) in right.iter_mut().zip(&sizes).zip(members) {
                     let outputs = &outputs[*output][run];
                     for (sum, column) in right.iter_mut().zip(&columns).take(*size) {
@@ -244,7 +239,7 @@ fn held_out_errors(candidates: &[Term], nets: &[&NetSums]) -> Vec<Vec<f64>> {
 }
 
 fn joined(nets: &[&NetSums]) -> (Square, Vec<Vec<f64>>) {
-    let (size, outputs) = nets.first().map_or((0, 0), |net| (net.gram.size(), net.right.len()));
+    let (size, outputs) = nets.first().map_or((0, 0), |net| (net.gram.size, net.right.len()));
     let (mut gram, mut right) = (Square::zeros(size), vec![vec![0.0; size]; outputs]);
     for net in nets {
         gram.add(&net.gram);

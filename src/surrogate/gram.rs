@@ -22,7 +22,7 @@ const MIN_GAIN: f64 = 1e-26;
 /// A square matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Square {
-    size: usize,
+    pub size: usize,
     values: Vec<f64>,
 }
 
@@ -30,11 +30,6 @@ impl Square {
     /// Creates a matrix of zeros.
     pub fn zeros(size: usize) -> Self {
         Self { size, values: vec![0.0; size * size] }
-    }
-
-    /// Returns the number of rows.
-    pub fn size(&self) -> usize {
-        self.size
     }
 
     /// Returns the value in row `i` and column `j`.
@@ -54,7 +49,7 @@ impl Square {
     }
 
     /// Adds the inner products of `columns`, one for each row of the matrix.
-    pub fn add_products(&mut self, columns: &[&[f64]]) {
+    pub fn add_products(&mut self, columns: &[Vec<f64>]) {
         add_products(self, columns);
         for i in 0..self.size {
             for j in 0..i {
@@ -67,8 +62,8 @@ impl Square {
 /// Adds the inner products of `columns` on and below the diagonal, and some above it. Each version does the same
 /// operations in the same order: wider registers change the time but no bit.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn add_products(sums: &mut Square, columns: &[&[f64]]) {
-    let (size, rows) = (sums.size, columns.first().map_or(0, |column| column.len()));
+fn add_products(sums: &mut Square, columns: &[Vec<f64>]) {
+    let (size, rows) = (sums.size, columns.first().map_or(0, Vec::len));
     let mut panels: Vec<Vec<[f64; WIDTH]>> = vec![vec![[0.0; WIDTH]; CHUNK]; size.div_ceil(WIDTH)];
     for start in (0..rows).step_by(CHUNK) {
         let part = start..rows.min(start + CHUNK);
@@ -141,7 +136,6 @@ fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
 }
 
 /// Columns chosen one by one to reduce the sum of squares of all outputs most, orthonormalised in this order.
-#[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The indices of the columns, in the order in which they were chosen.
     pub chosen: Vec<usize>,
@@ -155,7 +149,7 @@ impl Path {
     /// Chooses up to `most` columns of those with the inner products `gram`, whose products with each output are
     /// `right`. The first column is always chosen first. Of equal gains, the column that comes first is chosen.
     pub fn new(gram: &Square, right: Vec<Vec<f64>>, most: usize) -> Self {
-        let size = gram.size();
+        let size = gram.size;
         let diagonal: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
         let (mut left, mut rest) = (diagonal.clone(), right);
         let mut squares = vec![0.0; size];
@@ -265,7 +259,7 @@ pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Returns the lower triangular factor of `gram`, with a ridge at the size of rounding (Cholesky).
 pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
-    let size = gram.size();
+    let size = gram.size;
     let trace: f64 = (0..size).map(|i| gram.at(i, i)).sum();
     let ridge = 1e-12 * trace / size.max(1) as f64;
     let mut lower: Vec<Vec<f64>> = Vec::with_capacity(size);

@@ -21,7 +21,8 @@ const ROWS: usize = 2000;
 /// The candidates that the rows of some nets can determine.
 pub struct IdentifiableTerms<'a> {
     nets: &'a [Net],
-    caps: Caps<'a>,
+    /// The other limits on the terms.
+    pub(super) caps: Caps<'a>,
     /// For each factor, the highest degree up to which the rows of every net can determine all polynomials.
     degrees: Vec<usize>,
     /// For each net, the rows by which products are judged.
@@ -45,11 +46,6 @@ impl<'a> IdentifiableTerms<'a> {
         }
         let rows = nets.iter().map(|net| net.spaced_rows(ROWS)).collect();
         Self { nets, caps, degrees, rows }
-    }
-
-    /// Returns the other limits on the terms.
-    pub fn caps(&self) -> Caps<'a> {
-        self.caps
     }
 
     /// Returns those of `terms` that the rows can determine.

@@ -44,8 +44,9 @@ const PANELS: i32 = 50;
 /// x, those of the knots, x^2, ..., by quadrature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Knotted {
-    base: Family,
-    knots: Vec<Knot>,
+    /// The polynomials without steps and hinges.
+    pub base: Family,
+    pub knots: Vec<Knot>,
     /// For every knot, its polynomial of degree 1.
     edges: Vec<f64>,
     /// Row k has the coefficients of function k in 1, x, those of the knots, x^2, ..., as many as it needs.
@@ -67,18 +68,8 @@ impl Knotted {
             }
         }
         let mut gram = Square::zeros(columns.len());
-        gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        gram.add_products(&columns);
         Self { rows: inverse(&lower_factor(&gram)), ..all }
-    }
-
-    /// Returns the polynomials without steps and hinges.
-    pub fn base(&self) -> &Family {
-        &self.base
-    }
-
-    /// Returns the steps and kinks.
-    pub fn knots(&self) -> &[Knot] {
-        &self.knots
     }
 
     /// Returns the largest index of a function.

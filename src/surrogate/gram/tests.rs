@@ -11,7 +11,7 @@ fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {
 
 fn gram(columns: &[Vec<f64>]) -> Square {
     let mut gram = Square::zeros(columns.len());
-    gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    gram.add_products(columns);
     gram
 }
 
