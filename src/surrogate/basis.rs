@@ -310,29 +310,28 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
-            recurred(x, degree, |n| (2.0 * n + 1.0).sqrt(), |n, x, p, q| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0))
+            let mut columns = recurred(&x, degree, |n, x, p, q| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0));
+            for (k, column) in columns.iter_mut().enumerate() {
+                let norm = (2.0 * (k + 1) as f64 + 1.0).sqrt();
+                column.iter_mut().for_each(|p| *p *= norm);
+            }
+            columns
         }
         Family::Hermite => {
             let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
-            recurred(x, degree, |_| 1.0, |n, x, p, q| (x * p - n.sqrt() * q) / (n + 1.0).sqrt())
+            recurred(&x, degree, |n, x, p, q| (x * p - n.sqrt() * q) / (n + 1.0).sqrt())
         }
     }
 }
 
-/// Returns polynomials p_1 = x, p_2, ..., p_n times their `scale`(n); `next`(n, x, p_n, p_(n-1)) is p_(n+1).
-fn recurred(
-    x: Vec<f64>,
-    degree: usize,
-    scale: impl Fn(f64) -> f64,
-    next: impl Fn(f64, f64, f64, f64) -> f64,
-) -> Vec<Vec<f64>> {
-    let (mut before, mut now) = (vec![1.0; x.len()], x.clone());
+/// Returns the polynomials p_1, p_2, ... at `x`, of which p_(n+1) is `next`(n, x, p_n, p_(n-1)); p_0 = 1, p_(-1) = 0.
+pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
+    let (mut before, mut now) = (vec![0.0; x.len()], vec![1.0; x.len()]);
     let mut columns = Vec::with_capacity(degree);
-    for n in (1..=degree).map(|n| n as f64) {
-        let scale = scale(n);
-        columns.push(now.iter().map(|p| p * scale).collect());
-        let following = now.iter().zip(&before).zip(&x).map(|((p, q), x)| next(n, *x, *p, *q)).collect();
+    for n in 0..degree {
+        let following = now.iter().zip(&before).zip(x).map(|((p, q), x)| next(n as f64, *x, *p, *q)).collect();
         before = std::mem::replace(&mut now, following);
+        columns.push(now.clone());
     }
     columns
 }

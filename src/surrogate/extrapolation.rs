@@ -158,6 +158,7 @@ impl ExtrapolationError {
         let mass = 1.0 / points.max(2) as f64;
         let rest = rest.max(0.0).sqrt();
         let share = 1.0 / expansions.len() as f64;
+        let groups: Vec<BTreeMap<(usize, Term), Group>> = expansions.iter().map(groups).collect();
         for (factor, family) in families.iter().enumerate() {
             let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
             let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
@@ -165,15 +166,16 @@ impl ExtrapolationError {
             if tails.is_empty() && knots.is_empty() {
                 continue;
             }
-            for (others, group) in expansions.iter().flat_map(|expansion| groups(expansion, factor)) {
+            let of_factor = (factor, Term::new())..(factor + 1, Term::new());
+            for ((_, others), group) in groups.iter().flat_map(|groups| groups.range(of_factor.clone())) {
                 let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
                 // A close fit determines tails, and no knots.
                 let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                let (tail, knot) = (Departure::sum(&tails, &group), Departure::sum(&knots, &group));
+                let (tail, knot) = (Departure::sum(&tails, group), Departure::sum(&knots, group));
                 if others.is_empty() {
                     all.mean += weight * tail.mean + share * knot.mean;
                 }
-                all.add(&with(&others, factor), weight * tail.square + share * knot.square, effects);
+                all.add(&with(others, factor), weight * tail.square + share * knot.square, effects);
             }
         }
         all
@@ -205,11 +207,11 @@ fn with(rest: &[(usize, usize)], factor: usize) -> Term {
 
 /// The polynomials of one factor that are multiplied by the same polynomials of the others.
 #[derive(Default)]
-struct Group {
+pub(crate) struct Group {
     /// Degrees and coefficients.
-    coefficients: Vec<(usize, f64)>,
-    /// The coefficient of the term without the factor.
-    offset: f64,
+    pub coefficients: Vec<(usize, f64)>,
+    /// The coefficient of the term without the factor; 0 for the constant, which does not contribute to the variance.
+    pub offset: f64,
 }
 
 impl Group {
@@ -219,21 +221,19 @@ impl Group {
     }
 }
 
-/// Returns the polynomials of `factor`, grouped by the polynomials that multiply them.
-fn groups(expansion: &Expansion, factor: usize) -> BTreeMap<Term, Group> {
-    let mut groups: BTreeMap<Term, Group> = BTreeMap::new();
-    for (term, b) in expansion.iter() {
-        if let Ok(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor) {
-            let mut rest = term.clone();
-            let (_, degree) = rest.remove(place);
-            groups.entry(rest).or_default().coefficients.push((degree, b));
+/// Returns the polynomials of every factor, grouped by the factor and the polynomials that multiply them.
+pub(crate) fn groups(expansion: &Expansion) -> BTreeMap<(usize, Term), Group> {
+    let mut groups: BTreeMap<(usize, Term), Group> = BTreeMap::new();
+    for (term, b) in expansion.varying() {
+        for (place, &(factor, degree)) in term.iter().enumerate() {
+            let mut others = term.clone();
+            others.remove(place);
+            groups.entry((factor, others)).or_default().coefficients.push((degree, b));
         }
     }
-    // The mean does not contribute to the variance.
-    for (term, b) in expansion.varying() {
-        if let Some(group) = groups.get_mut(term) {
-            group.offset = b;
-        }
+    let coefficients: BTreeMap<&Term, f64> = expansion.varying().collect();
+    for ((_, others), group) in &mut groups {
+        group.offset = coefficients.get(others).copied().unwrap_or(0.0);
     }
     groups
 }

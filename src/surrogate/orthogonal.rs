@@ -1,6 +1,7 @@
 //! Polynomials orthonormal under the distribution of a factor, in its values: a model that is smooth in the values need
 //! not be smooth in the quantiles, and a factor with few levels needs few polynomials.
 
+use super::basis::recurred;
 use crate::space::Distribution;
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
@@ -71,17 +72,11 @@ impl Recurrence {
     /// Returns the polynomials of degree 1, 2, ... and at most `degree` at the values `x`, a column for each.
     pub fn columns(&self, x: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let x: Vec<f64> = x.iter().map(|x| (x - self.middle) / self.half).collect();
-        let (mut before, mut now, mut length) = (vec![0.0; x.len()], vec![1.0; x.len()], 0.0);
-        let mut columns = Vec::with_capacity(self.degree().min(degree));
-        for &(a, next_length) in self.coefficients.iter().take(degree) {
-            let next =
-                x.iter().zip(now.iter().zip(&before)).map(|(x, (p, q))| ((x - a) * p - length * q) / next_length);
-            let next = next.collect();
-            before = std::mem::replace(&mut now, next);
-            columns.push(now.clone());
-            length = next_length;
-        }
-        columns
+        recurred(&x, self.degree().min(degree), |k, x, p, q| {
+            let (a, next_length) = self.coefficients[k as usize];
+            let length = if k == 0.0 { 0.0 } else { self.coefficients[k as usize - 1].1 };
+            ((x - a) * p - length * q) / next_length
+        })
     }
 }
 
