@@ -1,6 +1,6 @@
 //! Sparse polynomial chaos expansions: terms chosen by greedy least squares, their number by leaving out a net.
 
-use super::basis::{Term, first_terms, neighbours};
+use super::basis::{Term, neighbours};
 use super::gram::{Path, Square, add_scaled, lower_factor, solve};
 use super::identifiable::IdentifiableTerms;
 use super::net::Net;
@@ -90,12 +90,6 @@ impl NetSums {
 /// Returns the number of rows of each of `nets` nets by which terms are chosen.
 pub fn selection_rows(nets: usize) -> usize {
     SELECTION_ROWS_OF_NET.max(SELECTION_ROWS / nets.max(1))
-}
-
-/// Returns the candidates of the first round, if `rows` rows choose among them.
-pub fn first_candidates(identifiable: &IdentifiableTerms<'_>, rows: usize) -> Vec<Term> {
-    let caps = identifiable.caps;
-    identifiable.retain(first_terms(caps, caps.terms.min(20.max(2 * rows))))
 }
 
 /// Fits an expansion for each output to the nets `training`, at first in the terms `candidates` with their sums over

@@ -4,27 +4,29 @@
 //! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
 //! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
-pub mod basis;
+pub(crate) mod basis;
 pub(crate) mod corrected;
 pub(crate) mod extrapolation;
-pub mod fit;
+pub(crate) mod fit;
 pub(crate) mod gram;
-pub mod identifiable;
+mod identifiable;
 mod knots;
 pub(crate) mod low_fidelity;
 mod many_outputs;
-pub mod net;
+pub(crate) mod net;
 mod orthogonal;
 mod outputs;
 
-use basis::{Caps, Family, Term, add_to};
+pub use basis::{Caps, Family};
+use basis::{Term, add_to, first_terms};
 use corrected::{Contributions, Effects};
 use extrapolation::ExtrapolationError;
-use fit::{Expansion, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows, without};
+pub use fit::Expansion;
+use fit::{MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
 use identifiable::IdentifiableTerms;
 use many_outputs::fit_outputs;
 pub(crate) use many_outputs::surrogates_together;
-use net::Net;
+pub use net::Net;
 use outputs::{Scale, ScaledOutput};
 use rayon::prelude::*;
 
@@ -194,7 +196,7 @@ fn mean_square_residual(nets: &[Contributions]) -> f64 {
 }
 
 /// Returns for every net the expansion fitted to the others.
-pub(crate) fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
+pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
     fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
 }
@@ -247,7 +249,8 @@ fn first_round(nets: &[Net], identifiable: &IdentifiableTerms<'_>) -> Vec<Term> 
     let training = nets.len() - 1;
     let rows = selection_rows(training);
     let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    first_candidates(identifiable, all_rows)
+    let caps = identifiable.caps;
+    identifiable.retain(first_terms(caps, caps.terms.min(20.max(2 * all_rows))))
 }
 
 /// The contributions of every net, and of every net of a low-fidelity model.

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::basis::{Family, Term, polynomials};
-use crate::design::{Design, Run};
+use crate::design::Design;
 
 /// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a
 /// run failed are left out.
@@ -14,22 +14,16 @@ pub struct Net {
     pub outputs: Vec<Vec<f64>>,
 }
 
-/// The base points of a net, and the matrices of its runs.
+/// The base points of a net, and the columns of its runs.
 struct NetRows {
-    /// For each matrix and factor a column for each degree from 1.
+    /// For each factor of each matrix a column for each degree from 1.
     columns: Vec<Vec<Vec<f64>>>,
-    /// For each matrix and factor the quantiles.
+    /// For each factor of each matrix the quantiles.
     quantiles: Vec<Vec<f64>>,
     factors: usize,
-    /// For each run and factor the matrix of its column.
-    matrices: Vec<Vec<usize>>,
+    /// For each run and factor the index of its column.
+    places: Vec<Vec<usize>>,
     points: usize,
-}
-
-/// Returns the matrix from which `run` takes the column of `factor`.
-fn matrix(design: &Design, run: &Run, factor: usize) -> usize {
-    let matrix = if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base };
-    design.first_column(matrix) / design.factors()
 }
 
 /// The mean and the mean square of a polynomial over some rows.
@@ -59,9 +53,9 @@ impl Net {
         let quantiles: Vec<Vec<f64>> = base.iter().map(|u| complete.iter().map(|&p| u[p]).collect()).collect();
         let columns =
             quantiles.iter().enumerate().map(|(k, u)| polynomials(&families[k % factors], u, degree)).collect();
-        let matrices = design.runs().iter().map(|run| (0..factors).map(|f| matrix(design, run, f)).collect()).collect();
+        let places = design.runs().iter().map(|run| (0..factors).map(|f| design.column(run, f)).collect()).collect();
         Self {
-            rows: Arc::new(NetRows { columns, quantiles, factors, matrices, points: complete.len() }),
+            rows: Arc::new(NetRows { columns, quantiles, factors, places, points: complete.len() }),
             outputs: outputs.iter().map(|run| complete.iter().map(|&p| run[p]).collect()).collect(),
         }
     }
@@ -69,8 +63,8 @@ impl Net {
     /// Creates a net of plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
-        let matrices = vec![vec![0; factors]];
-        let rows = NetRows { columns, quantiles: Vec::new(), factors, matrices, points };
+        let places = vec![(0..factors).collect()];
+        let rows = NetRows { columns, quantiles: Vec::new(), factors, places, points };
         Self { rows: Arc::new(rows), outputs: vec![outputs] }
     }
 
@@ -91,12 +85,12 @@ impl Net {
 
     /// Returns the polynomial of `degree` of `factor` at the base points of `run`.
     fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
-        &self.rows.columns[self.rows.matrices[run][factor] * self.rows.factors + factor][degree - 1]
+        &self.rows.columns[self.rows.places[run][factor]][degree - 1]
     }
 
     /// Returns the quantiles of `factor` at the base points of `run`.
     pub fn quantiles(&self, run: usize, factor: usize) -> &[f64] {
-        &self.rows.quantiles[self.rows.matrices[run][factor] * self.rows.factors + factor]
+        &self.rows.quantiles[self.rows.places[run][factor]]
     }
 
     /// Returns the spread of the polynomial of each degree of `factor` over the columns of all matrices.
