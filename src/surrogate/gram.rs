@@ -78,7 +78,9 @@ fn add_products(sums: &mut Square, columns: &[Vec<f64>]) {
                 {
                     for (row, products) in (first..size).zip(tile) {
                         let sums = &mut sums.values[row * size + j * WIDTH..(row + 1) * size];
-                        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+                        for (sum, product) in sums.iter_mut().zip(products) {
+                            *sum += product;
+                        }
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! Indices corrected by surrogates.
 //!
 //! A sparse polynomial chaos expansion is fitted to the runs of all nets but one, and corrects the indices of that one
-//! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
+//! (`corrected`): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
 //! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 pub(crate) mod basis;
@@ -294,9 +294,9 @@ fn estimates(corrected: &Corrected, low: &[Contributions], Scale { mean, sd }: S
     let all = AllContributions { nets, low };
     let variance = all.mean(extrapolation.variance, |net| &net.variance);
     let scaled_mean = all.mean(extrapolation.mean, |net| &net.mean);
-    let forms = [0, 1].map(|form| all.indices(&variance, &extrapolation.total, |net| &net.total[form]));
-    let weight = weight_of_second(&forms);
-    let forms = forms[0].iter().zip(&forms[1]);
+    let [first, second] = [0, 1].map(|form| all.indices(&variance, &extrapolation.total, |net| &net.total[form]));
+    let weight = weight_of_second(&first, &second);
+    let forms = first.iter().zip(&second);
     SurrogateEstimates {
         first_order: all.indices(&variance, &extrapolation.first_order, |net| &net.first_order),
         total: forms.map(|(a, b)| Influenced::combined(&[(1.0 - weight, a), (weight, b)])).collect(),
@@ -330,7 +330,7 @@ fn growth(nets: &[Contributions]) -> f64 {
 }
 
 /// Returns the weight of the second form of the total indices with the least spread within the nets, over all swaps.
-fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
+fn weight_of_second(first: &[Influenced], second: &[Influenced]) -> f64 {
     let (mut covariance, mut variance) = (0.0, 0.0);
     for (a, b) in first.iter().zip(second) {
         for (a, b) in a.parts.iter().chain(&a.low).zip(b.parts.iter().chain(&b.low)) {
