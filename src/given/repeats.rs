@@ -28,8 +28,7 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     if excess && equal.repeats as f64 > 0.02 * rows as f64 {
         return Err(GivenError::RepeatedRows { repeated: equal.repeats, rows });
     }
-    let single_steps = single_steps(&labels, &tied, all_pairs);
-    if let Some(pairs) = single_steps {
+    if let Some(pairs) = single_steps(&labels, &tied, all_pairs) {
         return Err(GivenError::OneAtATime { pairs, rows });
     }
     if joint_repeats(inputs, &labels, equal.pairs, rows) || same_multiplicities(inputs, rows) {

@@ -64,11 +64,8 @@ impl Outputs {
     /// Draws at most [`MAX_ROWS`] rows of a table by `seed`: the first ones of a sorted table would be a part of the
     /// input's range. `None` if they have one value.
     pub fn new(z: &[f64], seed: u64) -> Option<Self> {
-        let mut rows: Vec<usize> = (0..z.len()).collect();
-        if z.len() > MAX_ROWS {
-            rows = drawn_rows(z.len(), MAX_ROWS, seed);
-            rows.sort_unstable();
-        }
+        let mut rows = drawn_rows(z.len(), MAX_ROWS, seed);
+        rows.sort_unstable();
         let kernel = Kernel::new(&taken(z, &rows))?;
         let count = kernel.x.len();
         let squares = (0..count).map(|i| (0..count).map(|j| kernel.centred(i, j).powi(2)).sum::<f64>()).sum();

@@ -135,9 +135,9 @@ pub fn measures(
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
     let is_random = indices.points == PointSet::Independent;
-    let rows = RowProperties { has_p_values: is_random, has_intervals: is_random };
     let outputs = outputs.iter().enumerate().map(|(number, output)| {
-        Ok(Job::new(&output.values, &Measure::ALL, seed, number as u64)?.measures(inputs, rows))
+        let setting = Setting { seed, number: number as u64, has_p_values: is_random, has_intervals: is_random };
+        Ok(Job::new(&output.values, &Measure::ALL, setting)?.measures(inputs))
     });
     outputs.collect()
 }
@@ -153,13 +153,16 @@ pub(crate) fn measures_of_rows(
     number: u64,
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
-    let rows = RowProperties { has_p_values: independent, has_intervals: true };
-    Ok(Job::new(output, wanted, seed, number)?.measures(inputs, rows))
+    let setting = Setting { seed, number, has_p_values: independent, has_intervals: true };
+    Ok(Job::new(output, wanted, setting)?.measures(inputs))
 }
 
-/// What the rows allow.
+/// The random numbers of an output, and what its rows allow.
 #[derive(Clone, Copy)]
-struct RowProperties {
+struct Setting {
+    seed: u64,
+    /// The number of the output.
+    number: u64,
     has_p_values: bool,
     /// Whether delta has intervals.
     has_intervals: bool,
@@ -173,9 +176,7 @@ struct Job<'a> {
     /// Of the values themselves: subtracting the mean first would make all others equal next to a huge value.
     order: Order,
     distribution: OutputDistribution,
-    seed: u64,
-    /// The number of the output.
-    number: u64,
+    setting: Setting,
 }
 
 /// One input.
@@ -232,22 +233,26 @@ fn classes_for(rows: usize) -> usize {
 }
 
 impl<'a> Job<'a> {
-    fn new(values: &[f64], wanted: &'a [Measure], seed: u64, number: u64) -> Result<Self, NoVariance> {
+    fn new(values: &[f64], wanted: &'a [Measure], setting: Setting) -> Result<Self, NoVariance> {
         let (z, order, distribution) = (centred(values)?, Order::from_values(values), OutputDistribution::new(values));
-        Ok(Self { wanted, z, order, distribution, seed, number })
+        Ok(Self { wanted, z, order, distribution, setting })
     }
 
     fn wants(&self, measure: Measure) -> bool {
         self.wanted.contains(&measure)
     }
 
+    fn has_intervals(&self) -> bool {
+        self.setting.has_intervals && self.wants(Measure::Delta)
+    }
+
     fn random(&self, stream: u64) -> ChaCha8Rng {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        random.set_stream(self.number << 32 | stream);
+        let mut random = ChaCha8Rng::seed_from_u64(self.setting.seed);
+        random.set_stream(self.setting.number << 32 | stream);
         random
     }
 
-    fn measures(&self, inputs: &[Column], rows: RowProperties) -> Vec<InputMeasures> {
+    fn measures(&self, inputs: &[Column]) -> Vec<InputMeasures> {
         let has_atoms = self.distribution.has_atoms();
         let inputs = inputs.iter().enumerate().map(|(number, column)| {
             let order = Order::from_values(&column.values);
@@ -257,16 +262,16 @@ impl<'a> Job<'a> {
         let inputs: Vec<RankedInput<'_>> = inputs.collect();
         // The distribution by chance depends only on the ties of an input. An interval needs it too.
         let mut chance: BTreeMap<&[usize], Chance> = BTreeMap::new();
-        if rows.has_p_values || (rows.has_intervals && self.wants(Measure::Delta)) {
+        if self.setting.has_p_values || self.has_intervals() {
             for input in &inputs {
                 chance.entry(input.order.starts()).or_insert_with(|| self.by_chance(&input.order, &input.classes));
             }
         }
-        let kernels = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.seed) } else { None };
+        let kernels = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.setting.seed) } else { None };
         let measures = inputs.par_iter().map(|input| {
             let mut values = [Measured { estimate: Estimate::alone(0.0), p_value: None }; Measure::ALL.len()];
             if input.order.groups() > 1 {
-                values = self.measures_of(input, chance.get(input.order.starts()), kernels.as_ref(), rows);
+                values = self.measures_of(input, chance.get(input.order.starts()), kernels.as_ref());
             }
             let values = Measure::ALL.into_iter().zip(values);
             let existing = values.filter(|(measure, of)| self.wants(*measure) && of.estimate.estimate.is_finite());
@@ -281,7 +286,6 @@ impl<'a> Job<'a> {
         input: &RankedInput<'_>,
         chance: Option<&Chance>,
         kernels: Option<&hsic::Outputs>,
-        rows: RowProperties,
     ) -> [Measured; Measure::ALL.len()] {
         let mut values = [Measured { estimate: Estimate::alone(f64::NAN), p_value: None }; Measure::ALL.len()];
         let plain = self.plain(&input.order, &input.classes, input.order.rows());
@@ -292,7 +296,7 @@ impl<'a> Job<'a> {
             *measured =
                 Measured { estimate: Estimate::alone(plain), p_value: (!permutations.is_empty()).then_some(p_value) };
         }
-        if let Some(chance) = chance.filter(|_| rows.has_intervals && self.wants(Measure::Delta)) {
+        if let Some(chance) = chance.filter(|_| self.has_intervals()) {
             let delta = &mut values[Measure::Delta as usize];
             delta.estimate = self.delta(&input.classes, delta.estimate.estimate, chance, input.number);
             if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
@@ -303,7 +307,7 @@ impl<'a> Job<'a> {
         if let Some(measured) = kernels.and_then(|kernels| kernels.measure(&input.column.values)) {
             values[Measure::Hsic as usize] = measured;
         }
-        if !rows.has_p_values {
+        if !self.setting.has_p_values {
             values.iter_mut().for_each(|measured| measured.p_value = None);
         }
         values

@@ -40,7 +40,8 @@ fn other_programs_have_the_same_numbers() {
     ];
     let inputs = uniform(720, 3, 7);
     let y = output(&inputs, |x| libm::exp(x[0]) + 4.0 * (x[1] - 0.5).powi(2) * x[0]);
-    let job = Job::new(&y.values, &Measure::ALL, 0, 0).unwrap();
+    let setting = Setting { seed: 0, number: 0, has_p_values: true, has_intervals: true };
+    let job = Job::new(&y.values, &Measure::ALL, setting).unwrap();
     for (input, expected) in inputs.iter().zip(EXPECTED) {
         let order = Order::from_values(&input.values);
         let measures = job.plain(&order, &Classes::new(&order, 720, false), order.rows());

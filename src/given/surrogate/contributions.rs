@@ -22,7 +22,7 @@ pub(super) struct Contribution {
     /// The contribution of each row of the fold.
     rows: Vec<f64>,
     /// The other influences of each row.
-    moves: Vec<f64>,
+    pub moves: Vec<f64>,
 }
 
 impl Contribution {
@@ -37,12 +37,6 @@ impl Contribution {
     /// Adds influences that sum to 0 over all rows of the table.
     pub fn move_by(&mut self, more: &[f64]) {
         add_scaled(&mut self.moves, 1.0, more);
-    }
-
-    /// Returns these influences.
-    #[cfg(test)]
-    pub fn moves(&self) -> &[f64] {
-        &self.moves
     }
 
     fn in_parts(&self) -> Folded {

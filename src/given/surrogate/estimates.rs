@@ -1,7 +1,7 @@
 //! Indices and intervals from the contributions of all folds.
 
 use super::contributions::{FoldSums, To};
-use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms};
+use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms, left_square};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
 /// Computes the estimates of the inputs with these names from all folds.
@@ -21,7 +21,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
         first_order.push(of_first_order.over(&variance));
         total.push(gathered(folds, rows, extrapolation.total[input], To::Total(input)).over(&variance));
     }
-    let left = fitted.left_square() / variance.estimate;
+    let left = left_square(folds) / variance.estimate;
     let unknown = left.clamp(0.0, 1.0);
     let sum_first_order = first_order.iter().map(|index| index.estimate).sum();
     let indices = raised(&first_order, false, unknown).into_iter().zip(raised(&total, true, unknown)).zip(names);

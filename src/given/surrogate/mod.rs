@@ -197,17 +197,13 @@ struct Fitted {
 }
 
 impl Fitted {
-    /// Returns the mean square residual of the expansions.
-    fn left_square(&self) -> f64 {
-        left_square(&self.folds)
-    }
-
-    /// Returns the same plus the error that no rows show.
+    /// Returns the mean square residual plus the error that no rows show.
     fn unknown(&self) -> f64 {
-        self.left_square() + self.extrapolation.variance
+        left_square(&self.folds) + self.extrapolation.variance
     }
 }
 
+/// Returns the mean square residual of expansions.
 fn left_square(folds: &[FoldSums]) -> f64 {
     let rows: usize = folds.iter().map(|fold| fold.rows).sum();
     folds.iter().map(|fold| fold.residual_square).sum::<f64>() / rows as f64

@@ -33,7 +33,7 @@ fn influences_are_derivatives_by_the_weights_of_rows() {
     let mut contributions = Contributions::new(&net, &expansion);
     add(&net, &expansion, &mut contributions);
     let all = [To::Variance, To::FirstOrder(0), To::FirstOrder(1), To::Total(0), To::Total(1)];
-    let influences = all.map(|to| contributions.to(to).moves().to_vec());
+    let influences = all.map(|to| contributions.to(to).moves.clone());
     for row in 0..8 {
         let step = 1e-4;
         let moved = |step: f64| -> Vec<f64> {
