@@ -2,7 +2,7 @@
 //!
 //! Analysis: all estimators of first-order, total and second-order indices from stored outputs of 8 factors at 2^16
 //! base points, on one thread, in the blocks of a run. Points: coordinates a second of each sampler, in the blocks of
-//! a run too. Surrogates: one fit.
+//! a run too. Surrogates: one cross-fit.
 
 mod outputs;
 
@@ -11,10 +11,7 @@ use std::hint::black_box;
 use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
 use apportion::run::BLOCK;
-use apportion::surrogate::basis::{Caps, Family};
-use apportion::surrogate::carried::Carried;
-use apportion::surrogate::fit::{MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
-use apportion::surrogate::net::Net;
+use apportion::surrogate::{Caps, Family, Net, cross_fitted};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use outputs::{Outputs, design, function};
 
@@ -57,9 +54,10 @@ fn analysis(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// One sparse expansion, from the polynomials to the refitted coefficients, on one thread.
+/// A sparse expansion for each of four nets, from the polynomials to the coefficients refitted to the others, on one
+/// thread.
 fn surrogate(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("surrogate-fit-8-factors-400-terms");
+    let mut group = criterion.benchmark_group("surrogate-fits-8-factors-400-terms");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
     let function = function("sobol-g");
     let families = vec![Family::Legendre; 8];
@@ -80,13 +78,7 @@ fn surrogate(criterion: &mut Criterion) {
                         Net::new(design, 0, 0..outputs[0].len(), &families, caps.degree, outputs)
                     };
                     let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
-                    let carried = Carried::new(&nets, caps);
-                    let candidates = first_candidates(&carried, rows as usize);
-                    let most = selection_rows(nets.len());
-                    let nets: Vec<Training> = nets.iter().map(Training::new).collect();
-                    let sums: Vec<NetSums> = nets.iter().map(|net| NetSums::new(net, &candidates, most)).collect();
-                    let all: Vec<&Training> = nets.iter().collect();
-                    fit(&all, (&candidates, &sums.iter().collect::<Vec<_>>()), &carried, MAX_ROUNDS)
+                    cross_fitted(&nets, caps)
                 })
             });
         });

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::run::{Place, Totals};
 use crate::space::Space;
 use crate::study::Study;
-use crate::surrogate::low_fidelity::OwnOutputs;
+use crate::surrogate::low_fidelity::IndependentOutputs;
 
 /// A finished run of a study.
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ pub(crate) struct LowTotals<'a> {
     /// Totals of each replicate of its own design.
     pub own: &'a [Totals],
     /// Every output at its rows.
-    pub outputs: &'a [Option<OwnOutputs>],
+    pub outputs: &'a [Option<IndependentOutputs>],
 }
 
 /// Returns output number `number` of every run of each replicate.

@@ -51,7 +51,7 @@ impl MeasuredRows {
         }
         let of_factor = |column: &Column| Column { name: column.name.clone(), values: kept(&column.values) };
         let inputs: Vec<Column> = self.factors.iter().map(of_factor).collect();
-        let factors = measures_of_rows(&inputs, &outputs, wanted, [self.seed, number as u64], self.independent).ok()?;
+        let factors = measures_of_rows(&inputs, &outputs, wanted, self.seed, number as u64, self.independent).ok()?;
         Some(RunMeasures { rows: outputs.len(), factors })
     }
 }

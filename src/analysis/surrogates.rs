@@ -12,7 +12,7 @@ use crate::estimate::{MomentParts, PointOutputs};
 use crate::result::{RareLevel, SurrogateTrial};
 use crate::run::Totals;
 use crate::study::{Study, SurrogateChoice};
-use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
+use crate::surrogate::low_fidelity::{LowFidelityOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 
 /// Number of rows on which surrogates of a fast model are tried.
@@ -90,9 +90,9 @@ fn surrogates_and_trials(
     for (alone, number) in alone.into_iter().zip(numbers) {
         let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
         for low in lows {
-            if let Some(Some(own)) = low.outputs.get(number) {
+            if let Some(Some(independent)) = low.outputs.get(number) {
                 let shared = first_points(low.shared, number, points);
-                let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
+                let low = LowFidelityOutputs { name: low.name, shared: shared.iter().collect(), independent };
                 all.extend(low_fidelity_estimates(design, &families, &layout, &kept[number], &low));
             }
         }

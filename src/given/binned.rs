@@ -96,10 +96,10 @@ impl Bin {
 }
 
 impl Lines {
-    fn new((labels, count): Partition, x: &[f64], z: &[f64]) -> Self {
+    fn new(Partition { labels, count }: Partition, x: &[f64], z: &[f64]) -> Self {
         let mut bins = vec![Bin::default(); count];
-        let rows = || labels.iter().zip(x.iter().zip(z));
-        for (&label, (x, z)) in rows() {
+        let rows = labels.iter().zip(x.iter().zip(z));
+        for (&label, (x, z)) in rows.clone() {
             bins[label].rows += 1.0;
             bins[label].mean_x += x;
             bins[label].mean_z += z;
@@ -108,7 +108,7 @@ impl Lines {
             bin.mean_x /= bin.rows;
             bin.mean_z /= bin.rows;
         }
-        for (&label, (x, z)) in rows() {
+        for (&label, (x, z)) in rows.clone() {
             let bin = &mut bins[label];
             bin.xx += (x - bin.mean_x) * (x - bin.mean_x);
             bin.xz += (x - bin.mean_x) * (z - bin.mean_z);
@@ -118,15 +118,14 @@ impl Lines {
             let has_slope = bin.rows >= MIN_ROWS_OF_LINE && bin.xx > (ROUNDING * bin.mean_x).powi(2) * bin.rows;
             bin.parameters = if has_slope { 2.0 } else { 1.0 };
         }
-        let fitted: Vec<f64> = rows()
-            .map(|(&label, (x, z))| {
-                let bin = &mut bins[label];
-                let slope = if bin.parameters > 1.0 { bin.xz / bin.xx } else { 0.0 };
-                let fitted = bin.mean_z + slope * (x - bin.mean_x);
-                bin.rest += (z - fitted) * (z - fitted);
-                fitted
-            })
-            .collect();
+        let mut fitted = Vec::with_capacity(z.len());
+        for (&label, (x, z)) in rows {
+            let bin = &mut bins[label];
+            let slope = if bin.parameters > 1.0 { bin.xz / bin.xx } else { 0.0 };
+            let value = bin.mean_z + slope * (x - bin.mean_x);
+            bin.rest += (z - value) * (z - value);
+            fitted.push(value);
+        }
         let squares = fitted.iter().map(|g| g * g).sum();
         Self { bins, fitted, squares }
     }
@@ -148,11 +147,11 @@ impl Lines {
         });
         // Twice the squares of the noise, without the bias that normal noise would give them: its part of the variance
         // of the sum of squares of g, which has twice as much in the influences.
-        let of_bin = |bin: &Bin| {
+        let from_noise = self.bins.iter().map(|bin| {
             let left = bin.rows - bin.parameters;
             2.0 * bin.noise().powi(2) * bin.parameters * left / (left + 2.0)
-        };
-        let from_noise: f64 = self.bins.iter().map(of_bin).sum();
+        });
+        let from_noise: f64 = from_noise.sum();
         let variance = (squares - from_noise).max(from_noise);
         let parameters: f64 = self.bins.iter().map(|bin| bin.parameters).sum();
         // A few rows of a thin tail may have all of the variance: only they count.

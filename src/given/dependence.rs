@@ -56,16 +56,19 @@ pub(super) fn between(inputs: &[(&str, &Order)], rows: usize) -> Option<Dependen
         }
     }
     let (i, j, spearman) = strongest?;
-    let names = |i: usize, j: usize| (inputs[i].0.to_owned(), inputs[j].0.to_owned());
     let pairs = (ranks.len() * (ranks.len() - 1) / 2) as f64;
     let quantile = Normal::standard().inverse_cdf(1.0 - 0.5e-3 / pairs);
     let noise = (quantile / (rows as f64 - 1.0).sqrt()).min(1.0);
-    let mut dependence =
-        Dependence { strongest: PairDependence { inputs: names(i, j), spearman }, noise, uneven: None };
+    let strongest = PairDependence { inputs: names(inputs, (i, j)), spearman };
+    let mut dependence = Dependence { strongest, noise, uneven: None };
     if !dependence.correlated() {
-        dependence.uneven = uneven_pair(inputs, rows).map(|(i, j)| names(i, j));
+        dependence.uneven = uneven_pair(inputs, rows).map(|pair| names(inputs, pair));
     }
     Some(dependence)
+}
+
+fn names(inputs: &[(&str, &Order)], (i, j): (usize, usize)) -> (String, String) {
+    (inputs[i].0.to_owned(), inputs[j].0.to_owned())
 }
 
 fn normalised(mut ranks: Vec<f64>) -> Vec<f64> {

@@ -5,7 +5,7 @@
 //! neighbours as independent draws of the others, does not converge: on Sobol' points its error is 0.1 to 0.3 at any
 //! size. Latin hypercubes are even in each input alone, which does not affect ranks; there it converges.
 
-use super::order::Order;
+use super::order::{Order, Partition};
 
 /// Classes per input of the grids on which rows are counted.
 pub(super) const GRIDS: [usize; 6] = [4, 8, 16, 32, 64, 128];
@@ -88,34 +88,32 @@ pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
     numbers.into_iter().all(|number| !std::mem::replace(&mut seen[number], true))
 }
 
-/// Rows in classes by an input, and the number of classes.
-type Classes = (Vec<usize>, usize);
-
 /// Returns where the counts of rows over a grid are too even, and by how many standard deviations.
 fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<String> {
-    let classes: Vec<Classes> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
-    let row_classes = ((0..rows).map(|row| row * grid / rows).collect(), grid);
+    let classes: Vec<Partition> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
+    let row_classes = Partition { labels: (0..rows).map(|row| row * grid / rows).collect(), count: grid };
     let mut pooled = Deviation::default();
     let mut by_row = Deviation::default();
-    let counts = |place: String, z: f64| {
-        format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}, limit -6)")
-    };
     for ((name, _), classes) in inputs.iter().zip(&classes) {
         let Some(one) = deviation(&row_classes, classes) else { continue };
         if let Some(z) = one.too_even() {
-            return Some(counts(format!("row number and `{name}`"), z));
+            return Some(evidence(&format!("row number and `{name}`"), z));
         }
         by_row.add(one);
     }
     for (i, j) in nearest_pairs(inputs.len()) {
         let Some(one) = deviation(&classes[i], &classes[j]) else { continue };
         if let Some(z) = one.too_even() {
-            return Some(counts(format!("`{}` and `{}`", inputs[i].0, inputs[j].0), z));
+            return Some(evidence(&format!("`{}` and `{}`", inputs[i].0, inputs[j].0), z));
         }
         pooled.add(one);
     }
-    let rows = by_row.too_even().map(|z| counts("row number and each input".to_owned(), z));
-    rows.or_else(|| pooled.too_even().map(|z| counts("pairs of inputs".to_owned(), z)))
+    let rows = by_row.too_even().map(|z| evidence("row number and each input", z));
+    rows.or_else(|| pooled.too_even().map(|z| evidence("pairs of inputs", z)))
+}
+
+fn evidence(grid: &str, z: f64) -> String {
+    format!("counts over a grid of {grid} are too even for independent draws (z = {z:.1}, limit -6)")
 }
 
 /// Iterates over pairs of column numbers, neighbours first, up to the maximum number.
@@ -149,24 +147,24 @@ impl Deviation {
 }
 
 /// Computes the deviation from independence of the counts over two classifications; `None` if either has one class.
-pub(super) fn deviation((a, a_classes): &Classes, (b, b_classes): &Classes) -> Option<Deviation> {
-    let (rows, columns) = (*a_classes, *b_classes);
+pub(super) fn deviation(a: &Partition, b: &Partition) -> Option<Deviation> {
+    let (rows, columns) = (a.count, b.count);
     if rows < 2 || columns < 2 {
         return None;
     }
-    let mut counts = vec![0u32; rows * columns];
-    for (&a, &b) in a.iter().zip(b) {
-        counts[a * columns + b] += 1;
+    let mut counts = vec![0.0; rows * columns];
+    let (mut row_sums, mut column_sums) = (vec![0.0; rows], vec![0.0; columns]);
+    for (&row, &column) in a.labels.iter().zip(&b.labels) {
+        counts[row * columns + column] += 1.0;
+        row_sums[row] += 1.0;
+        column_sums[column] += 1.0;
     }
-    let count = |k: usize| f64::from(counts[k]);
-    let row_sums: Vec<f64> = (0..rows).map(|r| (0..columns).map(|c| count(r * columns + c)).sum()).collect();
-    let column_sums: Vec<f64> = (0..columns).map(|c| (0..rows).map(|r| count(r * columns + c)).sum()).collect();
-    let n = a.len() as f64;
+    let n = a.labels.len() as f64;
     let mut statistic = 0.0;
     for (r, row_sum) in row_sums.iter().enumerate() {
         for (c, column_sum) in column_sums.iter().enumerate() {
             let expected = row_sum * column_sum / n;
-            statistic += (count(r * columns + c) - expected).powi(2) / expected;
+            statistic += f64::powi(counts[r * columns + c] - expected, 2) / expected;
         }
     }
     // With fixed sums of rows and columns its mean is the freedom times n/(n - 1).

@@ -34,7 +34,7 @@ pub use surrogate::{
 use thiserror::Error;
 
 /// Minimum number of rows: with fewer, an interval is wider than the range of an index.
-pub const MIN_ROWS: usize = 30;
+pub(crate) const MIN_ROWS: usize = 30;
 
 /// Why a table cannot be analysed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -124,7 +124,7 @@ pub struct GivenIndices {
 /// for the interval of the rank estimator; the estimates do not depend on it.
 ///
 /// # Errors
-/// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`MIN_ROWS`] rows,
+/// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than 30 rows,
 /// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for
 /// ranks are analysed only by bins.
 ///

@@ -5,8 +5,14 @@ use rand_chacha::ChaCha8Rng;
 
 use super::shuffle;
 
-/// For every row the index of its class, and the number of classes.
-pub(super) type Partition = (Vec<usize>, usize);
+/// Rows in classes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Partition {
+    /// For every row the index of its class.
+    pub labels: Vec<usize>,
+    /// The number of classes.
+    pub count: usize,
+}
 
 /// Rows sorted by a column, with its ties.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,14 +32,14 @@ impl Order {
     /// Does the same with neighbours equal that differ by at most this part of their size.
     pub fn of_rounded(values: &[f64], part: f64) -> Self {
         let mut rows: Vec<usize> = (0..values.len()).collect();
-        let by_value = |a: &usize, b: &usize| (values[*a] + 0.0).total_cmp(&(values[*b] + 0.0)).then(a.cmp(b));
-        rows.sort_unstable_by(by_value);
-        let new = |&k: &usize| {
-            let Some(before) = k.checked_sub(1).map(|before| values[rows[before]]) else { return true };
-            let value = values[rows[k]];
-            value != before && value - before > part * value.abs().max(before.abs())
-        };
-        let mut starts: Vec<usize> = (0..rows.len()).filter(new).collect();
+        rows.sort_unstable_by(|a, b| (values[*a] + 0.0).total_cmp(&(values[*b] + 0.0)).then(a.cmp(b)));
+        let mut starts = if rows.is_empty() { Vec::new() } else { vec![0] };
+        for (k, pair) in rows.windows(2).enumerate() {
+            let (before, value) = (values[pair[0]], values[pair[1]]);
+            if value != before && value - before > part * value.abs().max(before.abs()) {
+                starts.push(k + 1);
+            }
+        }
         starts.push(rows.len());
         Self { rows, starts }
     }
@@ -90,8 +96,8 @@ impl Order {
         rows
     }
 
-    /// Returns for every row the index of one of at most `wanted` classes of about equal size that keep equal values
-    /// together, and the number of classes. None is smaller than half of the equal size.
+    /// Returns at most `wanted` classes of about equal size that keep equal values
+    /// together. None is smaller than half of the equal size.
     pub fn classes(&self, wanted: usize) -> Partition {
         let n = self.rows.len();
         let least = n.div_ceil(2 * wanted);
@@ -112,7 +118,7 @@ impl Order {
             class_of.iter_mut().rev().take_while(|c| **c == class).for_each(|c| *c -= 1);
             class -= 1;
         }
-        (self.spread(|place, _| class_of[place]), class + 1)
+        Partition { labels: self.spread(|place, _| class_of[place]), count: class + 1 }
     }
 
     /// Returns a value per row from one per group.

@@ -50,13 +50,13 @@ pub(super) fn of_output(
     seed: u64,
 ) -> OutputIndices {
     let indices = centred(&output.values).map(|z| {
-        let of_input = |(j, (input, order)): (usize, (&Column, &Order))| InputIndices {
+        let inputs = inputs.iter().zip(orders).enumerate().map(|(j, (input, order))| InputIndices {
             input: input.name.clone(),
             constant: order.groups() < 2,
-            rank: is_random.then(|| rank::of_order(order, &z, (seed, j as u64))),
+            rank: is_random.then(|| rank::of_order(order, &z, seed, j as u64)),
             binned: binned::of_order(order, &input.values, &z, is_random),
-        };
-        inputs.iter().zip(orders).enumerate().map(of_input).collect()
+        });
+        inputs.collect()
     });
     OutputIndices { name: output.name.clone(), indices }
 }

@@ -25,8 +25,8 @@ use crate::uncertainty::{Estimate, Interval, LEVEL};
 ///
 /// Rows must be independent; on quasi-random points S does not converge (see [`PointSet`](super::PointSet)).
 ///
-/// A constant input has index 0 without an interval. `order` is that of the input; `random` is seed and stream.
-pub(super) fn of_order(order: &Order, z: &[f64], random: (u64, u64)) -> Estimate {
+/// A constant input has index 0 without an interval. `order` is that of the input.
+pub(super) fn of_order(order: &Order, z: &[f64], seed: u64, stream: u64) -> Estimate {
     if order.groups() < 2 {
         return Estimate::alone(0.0);
     }
@@ -37,7 +37,7 @@ pub(super) fn of_order(order: &Order, z: &[f64], random: (u64, u64)) -> Estimate
     let between: f64 = ties.windows(2).map(|pair| pair[0].mean() * pair[1].mean()).sum();
     let (first, last) = (&ties[0], &ties[ties.len() - 1]);
     let estimate = (within + between + last.mean() * first.mean()) / square_sum;
-    let standard_error = standard_error(&order.shuffled(random.0, random.1), z, estimate) / (square_sum / n);
+    let standard_error = standard_error(&order.shuffled(seed, stream), z, estimate) / (square_sum / n);
     let closing = 0.5 * (first.mean_square() + last.mean_square()) - first.mean() * last.mean();
     let interval = StudentsT::new(0.0, 1.0, n - 1.0).ok().map(|t| {
         let half_width = t.inverse_cdf((1.0 + LEVEL) / 2.0) * standard_error;
@@ -79,12 +79,12 @@ fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
     let w: Vec<f64> =
         rows.windows(2).map(|pair| (z[pair[0]], z[pair[1]])).map(|(a, b)| a * b - s * (a * a + b * b) / 2.0).collect();
     let mean = w.iter().sum::<f64>() / w.len() as f64;
-    let covariance = |lag: usize| {
+    let [variance, lag_1, lag_2] = [0, 1, 2].map(|lag| {
         let pairs = w.iter().zip(&w[lag..]);
         pairs.map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>() / (w.len() - lag) as f64
-    };
+    });
     // In theory the covariance of noise is the variance of the part that neighbours share, so never negative.
-    let variance = covariance(0) + 2.0 * (covariance(1) - covariance(2)).max(0.0);
+    let variance = variance + 2.0 * (lag_1 - lag_2).max(0.0);
     (variance / z.len() as f64).sqrt()
 }
 

@@ -28,8 +28,7 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     if excess && equal.repeats as f64 > 0.02 * rows as f64 {
         return Err(GivenError::RepeatedRows { repeated: equal.repeats, rows });
     }
-    let single_steps = single_steps(&labels, &tied, all_pairs);
-    if let Some(pairs) = single_steps {
+    if let Some(pairs) = single_steps(&labels, &tied, all_pairs) {
         return Err(GivenError::OneAtATime { pairs, rows });
     }
     if joint_repeats(inputs, &labels, equal.pairs, rows) || same_multiplicities(inputs, rows) {
@@ -49,11 +48,10 @@ struct Equal {
 impl Equal {
     fn new(labels: &[Vec<usize>]) -> Self {
         let rows = labels[0].len();
-        let row = |k: usize| labels.iter().map(move |column| column[k]);
         let mut order: Vec<usize> = (0..rows).collect();
-        order.sort_unstable_by(|&a, &b| row(a).cmp(row(b)));
+        order.sort_unstable_by(|&a, &b| row(labels, a).cmp(row(labels, b)));
         let (mut pairs, mut repeats) = (0.0, 0);
-        for group in order.chunk_by(|&a, &b| row(a).eq(row(b))) {
+        for group in order.chunk_by(|&a, &b| row(labels, a).eq(row(labels, b))) {
             pairs += group.len() as f64 * (group.len() - 1) as f64 / 2.0;
             repeats += group.len() - 1;
         }
@@ -61,18 +59,21 @@ impl Equal {
     }
 }
 
+fn row(labels: &[Vec<usize>], row: usize) -> impl Iterator<Item = usize> {
+    labels.iter().map(move |column| column[row])
+}
+
 /// Returns the number of rows that differ from the previous row in exactly one input, if far too many.
 fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<usize> {
     let rows = labels[0].len();
-    let differing = |k: usize| labels.iter().filter(|column| column[k] != column[k - 1]).count();
-    let observed = (1..rows).filter(|&k| differing(k) == 1).count();
+    let differing = (1..rows).map(|k| labels.iter().filter(|column| column[k] != column[k - 1]).count());
+    let observed = differing.filter(|count| *count == 1).count();
     let agree: Vec<f64> = tied.iter().map(|pairs| pairs / all_pairs).collect();
-    let chance: f64 = (0..agree.len())
-        .map(|j| {
-            let others: f64 = agree.iter().enumerate().filter(|(i, _)| *i != j).map(|(_, p)| p).product();
-            (1.0 - agree[j]) * others
-        })
-        .sum();
+    let mut chance = 0.0;
+    for (j, of_input) in agree.iter().enumerate() {
+        let others: f64 = agree.iter().enumerate().filter(|(i, _)| *i != j).map(|(_, p)| p).product();
+        chance += (1.0 - of_input) * others;
+    }
     // A sorted table with few levels also has many such steps, but none of its columns then has many values.
     let rich = labels.iter().all(|column| column.iter().max().is_some_and(|last| *last + 1 >= 4));
     let enough = observed as f64 > 0.5 * rows as f64 && observed as f64 > 4.0 * chance * rows as f64;
@@ -116,12 +117,6 @@ fn jointly_tied(order: &Order, other: &[usize]) -> f64 {
 /// of B do in a pick-freeze design, even with few inputs. A full grid, which [`PointSet`](super::PointSet) detects, has
 /// few values, each many times.
 fn same_multiplicities(inputs: &[(&str, &Order)], rows: usize) -> bool {
-    let multiplicities = |order: &Order| {
-        let mut counts: Vec<usize> = order.iter().map(<[usize]>::len).collect();
-        counts.sort_unstable();
-        let kinds: Vec<(usize, usize)> = counts.chunk_by(|a, b| a == b).map(|c| (c[0], c.len())).collect();
-        kinds
-    };
     let first = multiplicities(inputs[0].1);
     let two_halves = match first[..] {
         [(multiplicity, _)] => multiplicity > 1,
@@ -132,4 +127,11 @@ fn same_multiplicities(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let values = inputs[0].1.groups();
     let plausible = values >= 16 && values * (inputs.len() + 1) >= rows;
     plausible && two_halves && inputs.iter().all(|(_, order)| multiplicities(order) == first)
+}
+
+/// Returns the multiplicities of values, and for each the number of values that have it.
+fn multiplicities(order: &Order) -> Vec<(usize, usize)> {
+    let mut counts: Vec<usize> = order.iter().map(<[usize]>::len).collect();
+    counts.sort_unstable();
+    counts.chunk_by(|a, b| a == b).map(|equal| (equal[0], equal.len())).collect()
 }

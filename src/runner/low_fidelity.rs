@@ -12,7 +12,7 @@ use crate::run::journal::with_ending;
 use crate::run::{GrowingRun, Job, OutputSink as _, RunError};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
-use crate::surrogate::low_fidelity::OwnOutputs;
+use crate::surrogate::low_fidelity::IndependentOutputs;
 use apportion_base::clock::Instant;
 
 /// Combined with the seed of the model's design, it seeds the own points of low-fidelity models unlike any user does.
@@ -99,7 +99,7 @@ pub(super) struct LowRun<'a> {
     /// At the rows of the model, and at its own, each with its duration in seconds.
     runs: [(GrowingRun<'a>, f64); 2],
     /// Its own design as far as evaluated, and every output at its rows.
-    own: (Design, Vec<Option<OwnOutputs>>),
+    own: (Design, Vec<Option<IndependentOutputs>>),
 }
 
 impl<'a> LowRun<'a> {
@@ -165,7 +165,7 @@ impl<'a> LowRun<'a> {
         let design = run.design().with_points(run.points_per_replicate()).unwrap_or_else(|_| run.design().clone());
         let families = families(&study.space);
         let count = run.totals().first().map_or(0, |totals| totals.outputs.len());
-        let output = |number| OwnOutputs::new(&design, &families, &outputs_kept(run.totals(), number));
+        let output = |number| IndependentOutputs::new(&design, &families, &outputs_kept(run.totals(), number));
         let outputs = run.install(|| (0..count).map(output).collect());
         self.own = (design, outputs);
         Ok(())

@@ -1,9 +1,12 @@
 //! Orthonormal polynomials of the factors: the terms of a surrogate.
 
+use std::collections::HashSet;
+
 use super::knots::Knotted;
-use super::own::{OwnPolynomials, Recurrence};
+use super::orthogonal::{OrthogonalPolynomials, Recurrence};
 use crate::space::Distribution;
 use apportion_base::special::normal_quantile;
+use apportion_base::sum::range;
 
 /// Maximum number of factors in a term of the first candidates.
 const MAX_FACTORS: usize = 3;
@@ -27,8 +30,8 @@ pub enum Family {
     Legendre,
     /// Hermite polynomials of the normal quantile: for normal and log-normal factors.
     Hermite,
-    /// Polynomials orthonormal in the factor's own distribution, in its values.
-    Own(Box<OwnPolynomials>),
+    /// Polynomials orthonormal under the distribution of the factor, in its values.
+    Orthogonal(Box<OrthogonalPolynomials>),
     /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
     Column(Box<Recurrence>),
     /// Polynomials of another family together with steps and kinks, all of which count as degrees.
@@ -47,33 +50,32 @@ impl Family {
             | Distribution::LogNormal(_)
             | Distribution::Weibull(_)
             | Distribution::Gumbel(_) => Self::Hermite,
-            // Unbounded distributions have no own polynomials here, and use their quantiles.
-            _ => OwnPolynomials::new(distribution, MAX_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
+            // Unbounded distributions use polynomials of their quantiles.
+            _ => OrthogonalPolynomials::new(distribution, MAX_DEGREES)
+                .map_or(Self::Legendre, |polynomials| Self::Orthogonal(Box::new(polynomials))),
         }
     }
 
     /// Returns the family of a column of `values`, between -2 and 2, with no degree if they are all equal.
     pub fn of_column(values: &[f64]) -> Self {
-        let bounds = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
-        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
         let weight = 1.0 / values.len() as f64;
         let nodes: Vec<(f64, f64)> = values.iter().map(|x| (*x, weight)).collect();
-        let recurrence = Recurrence::new(&nodes, (low, high), MAX_DEGREES);
+        let recurrence = Recurrence::new(&nodes, range(values), MAX_DEGREES);
         Self::Column(Box::new(recurrence.unwrap_or_default()))
     }
 
     /// Returns its polynomials without steps and kinks.
     pub fn smooth(&self) -> &Self {
-        if let Self::Knotted(own) = self { own.base() } else { self }
+        if let Self::Knotted(knotted) = self { &knotted.base } else { self }
     }
 
     /// Returns the largest available degree.
     fn degree(&self) -> usize {
         match self {
             Self::Legendre | Self::Hermite => MAX_DEGREES,
-            Self::Own(own) => own.degree(),
-            Self::Column(own) => own.degree(),
-            Self::Knotted(own) => own.degree(),
+            Self::Orthogonal(polynomials) => polynomials.degree(),
+            Self::Column(recurrence) => recurrence.degree(),
+            Self::Knotted(knotted) => knotted.degree(),
         }
     }
 }
@@ -121,13 +123,16 @@ impl<'a> Caps<'a> {
 
     /// Returns whether the degree of `term` is within the limits.
     fn allow(&self, term: &[(usize, usize)]) -> bool {
-        let degree = |counts: &dyn Fn(usize) -> bool| -> usize {
-            term.iter().filter(|(factor, _)| counts(*factor)).map(|(_, degree)| degree).sum()
-        };
-        let fits = |(factor, degree): &(usize, usize)| *degree <= self.families[*factor].degree();
-        term.iter().all(fits)
-            && degree(&|_| true) <= self.degree
-            && degree(&|factor| *self.families[factor].smooth() == Family::Hermite) <= self.hermite_degree
+        let (mut sum, mut hermite_sum) = (0, 0);
+        for &(factor, degree) in term {
+            let family = &self.families[factor];
+            if degree > family.degree() {
+                return false;
+            }
+            sum += degree;
+            hermite_sum += if *family.smooth() == Family::Hermite { degree } else { 0 };
+        }
+        sum <= self.degree && hermite_sum <= self.hermite_degree
     }
 }
 
@@ -170,17 +175,17 @@ pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
     terms
 }
 
-/// Calls `found` with every list of `members` rising degrees whose sum is at most `most`.
-fn rising(members: usize, most: usize, so_far: &mut Vec<usize>, found: &mut dyn FnMut(&[usize])) {
+/// Calls `visit` with every list of `members` rising degrees whose sum is at most `most`.
+fn rising(members: usize, most: usize, so_far: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize])) {
     if so_far.len() == members {
-        found(so_far);
+        visit(so_far);
         return;
     }
     let least = so_far.last().copied().unwrap_or(1);
     let left = members - so_far.len();
     for degree in least..=most / left {
         so_far.push(degree);
-        rising(members, most - degree, so_far, found);
+        rising(members, most - degree, so_far, visit);
         so_far.pop();
     }
 }
@@ -227,22 +232,15 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
     order.sort_by(|&i, &j| {
         (coefficients[j] * coefficients[j]).total_cmp(&(coefficients[i] * coefficients[i])).then(i.cmp(&j))
     });
-    let mut terms: Vec<Term> = Vec::new();
-    let mut seen = std::collections::HashSet::new();
-    let mut put = |term: Term| {
-        if caps.allow(&term) && terms.len() < caps.terms && seen.insert(term.clone()) {
-            terms.push(term);
-        }
-    };
-    put(Vec::new());
-    order.iter().for_each(|&place| put(active[place].clone()));
+    let mut terms: Vec<Term> = vec![Vec::new()];
+    terms.extend(order.iter().map(|&place| active[place].clone()));
     let leading = leading_factors(active, coefficients, &order);
     for term in order.iter().map(|&place| &active[place]).filter(|term| !term.is_empty()) {
         for member in 0..term.len() {
             for more in 1..=2 {
                 let mut next = term.clone();
                 next[member].1 += more;
-                put(next);
+                terms.push(next);
             }
         }
         for &factor in &leading {
@@ -256,17 +254,20 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
                 for degree in [1, strongest] {
                     let mut next = term.clone();
                     next.insert(place, (factor, degree));
-                    put(next);
+                    terms.push(next);
                 }
             }
         }
     }
+    let mut seen = HashSet::new();
+    terms.retain(|term| caps.allow(term) && seen.insert(term.clone()));
+    terms.truncate(caps.terms);
     terms
 }
 
 /// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
 pub(super) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
-    match list.iter_mut().find(|(known, _)| *known == key) {
+    match list.iter_mut().find(|(other, _)| *other == key) {
         Some((_, sum)) => *sum += more,
         None => list.push((key, more)),
     }
@@ -274,11 +275,15 @@ pub(super) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) 
 
 /// Returns the degree of the first term with only `factor`.
 fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
-    let degree = |&place: &usize| match active[place][..] {
+    order.iter().find_map(|&place| degree_alone(&active[place], factor)).unwrap_or(1)
+}
+
+/// Returns the degree of a term with no other factor than this one.
+pub(super) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
+    match term[..] {
         [(other, degree)] if other == factor => Some(degree),
         _ => None,
-    };
-    order.iter().find_map(degree).unwrap_or(1)
+    }
 }
 
 /// Returns the factors whose terms have the most variance, in falling order.
@@ -300,36 +305,33 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
 /// quantiles of the factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
-        Family::Own(own) => own.columns(u),
-        Family::Knotted(own) => own.columns(polynomials(own.base(), u, own.degree()), degree),
-        Family::Column(own) => own.columns(u, degree),
+        Family::Orthogonal(polynomials) => polynomials.columns(u),
+        Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
+        Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
-            let next = |n: f64, x: f64, p: f64, q: f64| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0);
-            recurred(x, degree, |n| (2.0 * n + 1.0).sqrt(), next)
+            let mut columns = recurred(&x, degree, |n, x, p, q| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0));
+            for (k, column) in columns.iter_mut().enumerate() {
+                let norm = (2.0 * (k + 1) as f64 + 1.0).sqrt();
+                column.iter_mut().for_each(|p| *p *= norm);
+            }
+            columns
         }
         Family::Hermite => {
             let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
-            let next = |n: f64, x: f64, p: f64, q: f64| (x * p - n.sqrt() * q) / (n + 1.0).sqrt();
-            recurred(x, degree, |_| 1.0, next)
+            recurred(&x, degree, |n, x, p, q| (x * p - n.sqrt() * q) / (n + 1.0).sqrt())
         }
     }
 }
 
-/// Returns polynomials p_1 = x, p_2, ..., p_n times their `scale`(n); `next`(n, x, p_n, p_(n-1)) is p_(n+1).
-fn recurred(
-    x: Vec<f64>,
-    degree: usize,
-    scale: impl Fn(f64) -> f64,
-    next: impl Fn(f64, f64, f64, f64) -> f64,
-) -> Vec<Vec<f64>> {
-    let (mut before, mut now) = (vec![1.0; x.len()], x.clone());
+/// Returns the polynomials p_1, p_2, ... at `x`, of which p_(n+1) is `next`(n, x, p_n, p_(n-1)); p_0 = 1, p_(-1) = 0.
+pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
+    let (mut before, mut now) = (vec![0.0; x.len()], vec![1.0; x.len()]);
     let mut columns = Vec::with_capacity(degree);
-    for n in (1..=degree).map(|n| n as f64) {
-        let scale = scale(n);
-        columns.push(now.iter().map(|p| p * scale).collect());
-        let following = now.iter().zip(&before).zip(&x).map(|((p, q), x)| next(n, *x, *p, *q)).collect();
+    for n in 0..degree {
+        let following = now.iter().zip(&before).zip(x).map(|((p, q), x)| next(n as f64, *x, *p, *q)).collect();
         before = std::mem::replace(&mut now, following);
+        columns.push(now.clone());
     }
     columns
 }

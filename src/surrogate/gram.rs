@@ -13,7 +13,7 @@ const WIDTH: usize = 8;
 /// Columns of one panel that are multiplied with those of another at a time: the sums fit into registers.
 const HEIGHT: usize = WIDTH / 2;
 
-/// Share of its own square that a column must keep in addition to those chosen before it.
+/// Share of its square that a column must keep in addition to those chosen before it.
 const INDEPENDENT: f64 = 1e-6;
 
 /// Gain in the sum of squares below which no further column is chosen, for outputs scaled to standard deviation 1.
@@ -22,7 +22,7 @@ const MIN_GAIN: f64 = 1e-26;
 /// A square matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Square {
-    size: usize,
+    pub size: usize,
     values: Vec<f64>,
 }
 
@@ -30,11 +30,6 @@ impl Square {
     /// Creates a matrix of zeros.
     pub fn zeros(size: usize) -> Self {
         Self { size, values: vec![0.0; size * size] }
-    }
-
-    /// Returns the number of rows.
-    pub fn size(&self) -> usize {
-        self.size
     }
 
     /// Returns the value in row `i` and column `j`.
@@ -50,11 +45,11 @@ impl Square {
 
     /// Adds another matrix of the same size.
     pub fn add(&mut self, other: &Self) {
-        self.values.iter_mut().zip(&other.values).for_each(|(sum, more)| *sum += more);
+        add_scaled(&mut self.values, 1.0, &other.values);
     }
 
     /// Adds the inner products of `columns`, one for each row of the matrix.
-    pub fn add_products(&mut self, columns: &[&[f64]]) {
+    pub fn add_products(&mut self, columns: &[Vec<f64>]) {
         add_products(self, columns);
         for i in 0..self.size {
             for j in 0..i {
@@ -67,8 +62,8 @@ impl Square {
 /// Adds the inner products of `columns` on and below the diagonal, and some above it. Each version does the same
 /// operations in the same order: wider registers change the time but no bit.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn add_products(sums: &mut Square, columns: &[&[f64]]) {
-    let (size, rows) = (sums.size, columns.first().map_or(0, |column| column.len()));
+fn add_products(sums: &mut Square, columns: &[Vec<f64>]) {
+    let (size, rows) = (sums.size, columns.first().map_or(0, Vec::len));
     let mut panels: Vec<Vec<[f64; WIDTH]>> = vec![vec![[0.0; WIDTH]; CHUNK]; size.div_ceil(WIDTH)];
     for start in (0..rows).step_by(CHUNK) {
         let part = start..rows.min(start + CHUNK);
@@ -83,7 +78,9 @@ fn add_products(sums: &mut Square, columns: &[&[f64]]) {
                 {
                     for (row, products) in (first..size).zip(tile) {
                         let sums = &mut sums.values[row * size + j * WIDTH..(row + 1) * size];
-                        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+                        for (sum, product) in sums.iter_mut().zip(products) {
+                            *sum += product;
+                        }
                     }
                 }
             }
@@ -105,10 +102,12 @@ fn products<const FIRST: usize>(a: &[[f64; WIDTH]], b: &[[f64; WIDTH]]) -> [[f64
     sums
 }
 
-/// Subtracts `weight` times `earlier` from `factor`.
+/// Adds `weight` times `other` to `column`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn subtract(factor: &mut [f64], weight: f64, earlier: &[f64]) {
-    factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
+pub(crate) fn add_scaled(column: &mut [f64], weight: f64, other: &[f64]) {
+    for (value, other) in column.iter_mut().zip(other) {
+        *value += weight * other;
+    }
 }
 
 /// Subtracts four columns one after the other, in one pass.
@@ -120,7 +119,7 @@ fn subtract_four(factor: &mut [f64], [w0, w1, w2, w3]: [f64; 4], [e0, e1, e2, e3
     }
 }
 
-/// Sets the reduction of the sum of squares by each column; -1 if at most `fewest` of its own square is left.
+/// Sets the reduction of the sum of squares by each column; -1 if at most `fewest` of its square is left.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn set_gains(gains: &mut [f64], squares: &[f64], left: &[f64], fewest: &[f64]) {
     for ((gain, square), (left, fewest)) in gains.iter_mut().zip(squares).zip(left.iter().zip(fewest)) {
@@ -139,7 +138,6 @@ fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
 }
 
 /// Columns chosen one by one to reduce the sum of squares of all outputs most, orthonormalised in this order.
-#[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The indices of the columns, in the order in which they were chosen.
     pub chosen: Vec<usize>,
@@ -153,15 +151,17 @@ impl Path {
     /// Chooses up to `most` columns of those with the inner products `gram`, whose products with each output are
     /// `right`. The first column is always chosen first. Of equal gains, the column that comes first is chosen.
     pub fn new(gram: &Square, right: Vec<Vec<f64>>, most: usize) -> Self {
-        let size = gram.size();
-        let own: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
-        let (mut left, mut rest) = (own.clone(), right);
+        let size = gram.size;
+        let diagonal: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
+        let (mut left, mut rest) = (diagonal.clone(), right);
         let mut squares = vec![0.0; size];
         for rest in &rest {
-            squares.iter_mut().zip(rest).for_each(|(sum, rest)| *sum += rest * rest);
+            for (sum, rest) in squares.iter_mut().zip(rest) {
+                *sum += rest * rest;
+            }
         }
         let least = MIN_GAIN * rest.len() as f64;
-        let mut fewest: Vec<f64> = own.iter().map(|own| INDEPENDENT * own).collect();
+        let mut fewest: Vec<f64> = diagonal.iter().map(|square| INDEPENDENT * square).collect();
         let mut gains = vec![0.0; size];
         let mut factors: Vec<Vec<f64>> = Vec::new();
         let (mut chosen, mut scores): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), vec![Vec::new(); rest.len()]);
@@ -181,10 +181,12 @@ impl Path {
                 subtract_four(&mut factor, four.each_ref().map(|e| e[next]), four.each_ref().map(Vec::as_slice));
             }
             for earlier in others {
-                subtract(&mut factor, earlier[next], earlier);
+                add_scaled(&mut factor, -earlier[next], earlier);
             }
             factor.iter_mut().for_each(|value| *value /= root);
-            left.iter_mut().zip(&factor).for_each(|(left, factor)| *left -= factor * factor);
+            for (left, factor) in left.iter_mut().zip(&factor) {
+                *left -= factor * factor;
+            }
             squares.fill(0.0);
             for (rest, scores) in rest.iter_mut().zip(&mut scores) {
                 let score = rest[next] / root;
@@ -196,19 +198,17 @@ impl Path {
             chosen.push(next);
             factors.push(factor);
         }
-        let lower: Vec<Vec<f64>> = chosen
-            .iter()
-            .enumerate()
-            .map(|(i, &row)| factors[..=i].iter().map(|factor| factor[row]).collect())
-            .collect();
-        Self { chosen, scores, inverse: inverse(&lower) }
+        let lower = chosen.iter().enumerate();
+        let lower = lower.map(|(i, &row)| factors[..=i].iter().map(|factor| factor[row]).collect());
+        let inverse = inverse(&lower.collect::<Vec<Vec<f64>>>());
+        Self { chosen, scores, inverse }
     }
 
     /// Returns the coefficients of the first `size` chosen columns for output number `output`.
     pub fn coefficients(&self, output: usize, size: usize) -> Vec<f64> {
         let mut all = vec![0.0; size];
         for (score, row) in self.scores[output].iter().zip(&self.inverse).take(size) {
-            all.iter_mut().zip(row).for_each(|(sum, weight)| *sum += score * weight);
+            add_scaled(&mut all, *score, row);
         }
         all
     }
@@ -219,27 +219,28 @@ impl Path {
         let of_chosen: Vec<Vec<f64>> =
             self.chosen.iter().map(|&i| self.chosen.iter().map(|&j| gram.at(i, j)).collect()).collect();
         // The products of every orthonormal column with all chosen ones.
-        let products_of = |row: &Vec<f64>| {
-            let mut mine = vec![0.0; self.chosen.len()];
-            row.iter().zip(&of_chosen).for_each(|(weight, column)| subtract(&mut mine, -weight, column));
-            mine
-        };
-        let columns: Vec<Vec<f64>> = self.inverse.iter().map(products_of).collect();
-        let own: Vec<f64> = self.inverse.iter().zip(&columns).map(|(row, mine)| product(row, mine)).collect();
-        let of_output = |((scores, right), square): ((&Vec<f64>, &Vec<f64>), &f64)| {
+        let mut columns = vec![vec![0.0; self.chosen.len()]; self.inverse.len()];
+        for (column, row) in columns.iter_mut().zip(&self.inverse) {
+            for (weight, of_chosen) in row.iter().zip(&of_chosen) {
+                add_scaled(column, *weight, of_chosen);
+            }
+        }
+        let lengths: Vec<f64> = self.inverse.iter().zip(&columns).map(|(row, column)| product(row, column)).collect();
+        let mut all = Vec::with_capacity(self.scores.len());
+        for ((scores, right), square) in self.scores.iter().zip(right).zip(squares) {
             let right: Vec<f64> = self.chosen.iter().map(|&column| right[column]).collect();
             // The products of the fit so far with all chosen columns.
             let mut products = vec![0.0; self.chosen.len()];
             let mut error = *square;
             let mut errors = Vec::with_capacity(self.chosen.len());
-            for (score, (row, (mine, own))) in scores.iter().zip(self.inverse.iter().zip(columns.iter().zip(&own))) {
-                error += score * score * own + 2.0 * score * (product(row, &products) - product(row, &right));
+            for (k, (score, row)) in scores.iter().zip(&self.inverse).enumerate() {
+                error += score * score * lengths[k] + 2.0 * score * (product(row, &products) - product(row, &right));
                 errors.push(error);
-                subtract(&mut products, -score, mine);
+                add_scaled(&mut products, *score, &columns[k]);
             }
-            errors
-        };
-        self.scores.iter().zip(right).zip(squares).map(of_output).collect()
+            all.push(errors);
+        }
+        all
     }
 }
 
@@ -249,7 +250,7 @@ pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     for (i, row) in lower.iter().enumerate() {
         let mut new = vec![0.0; i + 1];
         for (weight, earlier) in row.iter().zip(&rows) {
-            new.iter_mut().zip(earlier).for_each(|(sum, value)| *sum -= weight * value);
+            add_scaled(&mut new, -weight, earlier);
         }
         new[i] = 1.0;
         new.iter_mut().for_each(|value| *value /= row[i]);
@@ -260,7 +261,7 @@ pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Returns the lower triangular factor of `gram`, with a ridge at the size of rounding (Cholesky).
 pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
-    let size = gram.size();
+    let size = gram.size;
     let trace: f64 = (0..size).map(|i| gram.at(i, i)).sum();
     let ridge = 1e-12 * trace / size.max(1) as f64;
     let mut lower: Vec<Vec<f64>> = Vec::with_capacity(size);
@@ -268,12 +269,12 @@ pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
         let mut row: Vec<f64> = gram.row(i)[..=i].to_vec();
         row[i] += ridge;
         for j in 0..=i {
-            let known: f64 = if j < i {
+            let explained: f64 = if j < i {
                 row[..j].iter().zip(&lower[j]).map(|(a, b)| a * b).sum()
             } else {
                 row[..i].iter().map(|a| a * a).sum()
             };
-            row[j] -= known;
+            row[j] -= explained;
             if j < i {
                 row[j] /= lower[j][j];
             }
@@ -289,12 +290,12 @@ pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     let size = lower.len();
     let mut x = right[..size].to_vec();
     for i in 0..size {
-        let known: f64 = lower[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
-        x[i] = (x[i] - known) / lower[i][i];
+        let sum: f64 = lower[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
+        x[i] = (x[i] - sum) / lower[i][i];
     }
     for i in (0..size).rev() {
-        let known: f64 = (i + 1..size).map(|j| lower[j][i] * x[j]).sum();
-        x[i] = (x[i] - known) / lower[i][i];
+        let sum: f64 = (i + 1..size).map(|j| lower[j][i] * x[j]).sum();
+        x[i] = (x[i] - sum) / lower[i][i];
     }
     x
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::basis::{Family, Term, polynomials};
-use crate::design::{Design, Run};
+use crate::design::Design;
 
 /// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a
 /// run failed are left out.
@@ -14,16 +14,23 @@ pub struct Net {
     pub outputs: Vec<Vec<f64>>,
 }
 
-/// The base points of a net, and the matrices of its runs.
+/// The base points of a net, and the columns of its runs.
 struct NetRows {
-    /// For each matrix and factor a column for each degree from 1.
+    /// For each factor of each matrix a column for each degree from 1.
     columns: Vec<Vec<Vec<f64>>>,
-    /// For each matrix and factor the quantiles.
+    /// For each factor of each matrix the quantiles.
     quantiles: Vec<Vec<f64>>,
     factors: usize,
-    /// For each run and factor the matrix of its column.
-    matrices: Vec<Vec<usize>>,
+    /// For each run and factor the index of its column.
+    places: Vec<Vec<usize>>,
     points: usize,
+}
+
+/// The mean and the mean square of a polynomial over some rows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Spread {
+    pub mean: f64,
+    pub square: f64,
 }
 
 impl Net {
@@ -38,28 +45,26 @@ impl Net {
         outputs: &[Vec<f64>],
     ) -> Self {
         let outputs: Vec<&[f64]> = outputs.iter().map(|run| &run[points.clone()]).collect();
-        let good: Vec<usize> = (0..points.len()).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
+        let complete: Vec<usize> =
+            (0..points.len()).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
         let mut base = vec![vec![0.0; points.len()]; design.columns()];
         design.replicate(replicate).fill(points.start as u64, &mut base);
         let factors = design.factors();
-        let quantiles: Vec<Vec<f64>> = base.iter().map(|u| good.iter().map(|&p| u[p]).collect()).collect();
-        let of_column = |(number, u): (usize, &Vec<f64>)| polynomials(&families[number % factors], u, degree);
-        let matrix = |run: &Run, factor: usize| {
-            design.first_column(if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base }) / factors
-        };
-        let columns = quantiles.iter().enumerate().map(of_column).collect();
-        let matrices = design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect();
+        let quantiles: Vec<Vec<f64>> = base.iter().map(|u| complete.iter().map(|&p| u[p]).collect()).collect();
+        let columns =
+            quantiles.iter().enumerate().map(|(k, u)| polynomials(&families[k % factors], u, degree)).collect();
+        let places = design.runs().iter().map(|run| (0..factors).map(|f| design.column(run, f)).collect()).collect();
         Self {
-            rows: Arc::new(NetRows { columns, quantiles, factors, matrices, points: good.len() }),
-            outputs: outputs.iter().map(|run| good.iter().map(|&p| run[p]).collect()).collect(),
+            rows: Arc::new(NetRows { columns, quantiles, factors, places, points: complete.len() }),
+            outputs: outputs.iter().map(|run| complete.iter().map(|&p| run[p]).collect()).collect(),
         }
     }
 
     /// Creates a net of plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
-        let matrices = vec![vec![0; factors]];
-        let rows = NetRows { columns, quantiles: Vec::new(), factors, matrices, points };
+        let places = vec![(0..factors).collect()];
+        let rows = NetRows { columns, quantiles: Vec::new(), factors, places, points };
         Self { rows: Arc::new(rows), outputs: vec![outputs] }
     }
 
@@ -80,22 +85,24 @@ impl Net {
 
     /// Returns the polynomial of `degree` of `factor` at the base points of `run`.
     fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
-        &self.rows.columns[self.rows.matrices[run][factor] * self.rows.factors + factor][degree - 1]
+        &self.rows.columns[self.rows.places[run][factor]][degree - 1]
     }
 
     /// Returns the quantiles of `factor` at the base points of `run`.
     pub fn quantiles(&self, run: usize, factor: usize) -> &[f64] {
-        &self.rows.quantiles[self.rows.matrices[run][factor] * self.rows.factors + factor]
+        &self.rows.quantiles[self.rows.places[run][factor]]
     }
 
-    /// Returns mean and mean square of the polynomials of each degree of `factor` over the columns of all matrices.
-    pub fn spreads(&self, factor: usize) -> Vec<(f64, f64)> {
-        let matrices = self.rows.columns.len() / self.rows.factors;
-        let columns =
-            |degree: usize| (0..matrices).map(move |m| &self.rows.columns[m * self.rows.factors + factor][degree]);
-        let count = (matrices * self.rows.points).max(1) as f64;
-        let mean = |degree: usize, of: fn(&f64) -> f64| columns(degree).flatten().map(of).sum::<f64>() / count;
-        (0..self.rows.columns[factor].len()).map(|k| (mean(k, |x| *x), mean(k, |x| x * x))).collect()
+    /// Returns the spread of the polynomial of each degree of `factor` over the columns of all matrices.
+    pub fn spreads(&self, factor: usize) -> Vec<Spread> {
+        let count = (self.rows.columns.len() / self.rows.factors * self.rows.points).max(1) as f64;
+        let degrees = 0..self.rows.columns[factor].len();
+        let of_degree = degrees.map(|degree| {
+            let columns = self.rows.columns.iter().skip(factor).step_by(self.rows.factors);
+            let values = columns.flat_map(|of_matrix| &of_matrix[degree]);
+            Spread { mean: values.clone().sum::<f64>() / count, square: values.map(|x| x * x).sum::<f64>() / count }
+        });
+        of_degree.collect()
     }
 
     /// Writes the values of `term` at every base point of `run` to `values`.
@@ -108,7 +115,9 @@ impl Net {
         values.extend_from_slice(self.column(run, *factor, *degree));
         for (factor, degree) in others {
             let column = self.column(run, *factor, *degree);
-            values.iter_mut().zip(column).for_each(|(value, p)| *value *= p);
+            for (value, p) in values.iter_mut().zip(column) {
+                *value *= p;
+            }
         }
     }
 
@@ -117,13 +126,14 @@ impl Net {
     pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
         let all = self.rows.points * self.runs();
         let count = all.min(most);
-        let row = |k: usize| {
+        let rows = (0..count).map(|k| {
             let (first, next) = (k * all / count, (k + 1) * all / count);
             // The fractional part of a multiple of the golden ratio, in 32 bits.
             let within = (k as u32).wrapping_mul(0x9e37_79b9);
-            first + (((next - first) * (within >> 16) as usize) >> 16)
-        };
-        (0..count).map(row).map(|row| (row / self.rows.points, row % self.rows.points)).collect()
+            let row = first + (((next - first) * (within >> 16) as usize) >> 16);
+            (row / self.rows.points, row % self.rows.points)
+        });
+        rows.collect()
     }
 
     /// Returns the values of `term` at some rows, in the order of the runs.
@@ -134,7 +144,9 @@ impl Net {
             let (of_run, after) = rest.split_at_mut(rows.len());
             for (factor, degree) in term {
                 let column = self.column(rows[0].0, *factor, *degree);
-                of_run.iter_mut().zip(rows).for_each(|(value, (_, point))| *value *= column[*point]);
+                for (value, (_, point)) in of_run.iter_mut().zip(rows) {
+                    *value *= column[*point];
+                }
             }
             rest = after;
         }

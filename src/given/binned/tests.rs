@@ -22,10 +22,10 @@ fn variation_within_a_bin_is_included() {
     let a: Vec<f64> = (0..1000).map(|k| quantile((f64::from(k) + 0.5) / 1000.0)).collect();
     let y: Vec<f64> =
         (0..1000).map(|k| 3.0 * a[k as usize] + quantile((f64::from(k * 371 % 1000) + 0.5) / 1000.0)).collect();
-    let found = binned_first_order(&a, &y).estimate;
-    let interval = found.interval.unwrap();
-    assert!((found.estimate - 0.9).abs() < 0.02 && interval.low < 0.9 && 0.9 < interval.high, "{found:?}");
-    assert!(interval.high - interval.low < 0.3, "{found:?}");
+    let estimated = binned_first_order(&a, &y).estimate;
+    let interval = estimated.interval.unwrap();
+    assert!((estimated.estimate - 0.9).abs() < 0.02 && interval.low < 0.9 && 0.9 < interval.high, "{estimated:?}");
+    assert!(interval.high - interval.low < 0.3, "{estimated:?}");
 }
 
 #[test]

@@ -38,18 +38,16 @@ impl OutputDistribution {
         let mut sizes: Vec<usize> = order.iter().map(<[usize]>::len).collect();
         sizes.sort_unstable();
         let least = (ATOM_OVER_MEDIAN * sizes[sizes.len() / 2]).max(values.len().div_ceil(ROWS_PER_ATOM));
-        let is_counted = |rows: &[usize]| order.groups() <= MAX_COUNTED_VALUES || rows.len() >= least;
         let (mut atom_of, mut atoms) = (vec![None; values.len()], 0);
-        for rows in order.iter().filter(|rows| is_counted(rows)) {
+        for rows in order.iter().filter(|rows| order.groups() <= MAX_COUNTED_VALUES || rows.len() >= least) {
             rows.iter().for_each(|&row| atom_of[row] = Some(atoms));
             atoms += 1;
         }
         let others: Vec<usize> = (0..values.len()).filter(|row| atom_of[*row].is_none()).collect();
         let mut scores = vec![0.0; values.len()];
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let of_others =
-            centred_scores(&Order::from_values(&others.iter().map(|&row| values[row]).collect::<Vec<f64>>()));
-        for (&row, score) in others.iter().zip(of_others) {
+        let other_values: Vec<f64> = others.iter().map(|&row| values[row]).collect();
+        for (row, score) in others.into_iter().zip(centred_scores(&Order::from_values(&other_values))) {
             scores[row] = score;
             (low, high) = (low.min(score), high.max(score));
         }
@@ -63,60 +61,73 @@ impl OutputDistribution {
     /// Computes half of the mean over the classes of the distance between the distribution of the outputs there and
     /// that of all: for atoms the sum of the differences of their shares, for the density the integral (Plischke et al.
     /// 2013, eq. 26), by kernels of `part` of Silverman's width. Rows are weighted. Between 0 and 1.
-    pub fn delta(&self, (labels, count): &Partition, weights: &[f64], part: f64) -> f64 {
-        let mut all = Spread::default();
-        let mut classes = vec![Spread::default(); *count];
-        let (mut total, mut sizes) = (0.0, vec![0.0; *count]);
-        let mut counted = vec![0.0; self.atoms * (count + 1)];
-        for ((&label, atom), (score, &weight)) in labels.iter().zip(&self.atom_of).zip(self.scores.iter().zip(weights))
-        {
-            total += weight;
-            sizes[label] += weight;
-            match atom {
-                Some(atom) => {
-                    counted[self.atoms * label + atom] += weight;
-                    counted[self.atoms * count + atom] += weight;
-                }
-                None => {
-                    all.add(*score, weight);
-                    classes[label].add(*score, weight);
+    pub fn delta(&self, Partition { labels, count }: &Partition, weights: &[f64], part: f64) -> f64 {
+        let mut all = ClassDistribution::new(self.atoms);
+        let mut classes = vec![all.clone(); *count];
+        for (row, &weight) in weights.iter().enumerate() {
+            all.add(self.atom_of[row], self.scores[row], weight);
+            classes[labels[row]].add(self.atom_of[row], self.scores[row], weight);
+        }
+        for of in classes.iter_mut().chain([&mut all]) {
+            let width = part * of.spread.width() / self.step;
+            of.width = if width > 0.0 { width.max(MIN_WIDTH) } else { 0.0 };
+        }
+        for (row, &weight) in weights.iter().enumerate() {
+            if weight > 0.0 && self.atom_of[row].is_none() && all.width > 0.0 {
+                let place = (self.scores[row] - self.low) / self.step;
+                for of in [&mut all, &mut classes[labels[row]]].into_iter().filter(|of| of.width > 0.0) {
+                    add_kernel(&mut of.density, place, of.width, weight);
                 }
             }
         }
-        let width = |of: &Spread| match part * of.width() / self.step {
-            width if width > 0.0 => width.max(MIN_WIDTH),
-            _ => 0.0,
-        };
-        let (of_all, widths) = (width(&all), classes.iter().map(width).collect::<Vec<f64>>());
-        let (mut density, mut densities) = ([0.0; GRID], vec![[0.0; GRID]; *count]);
-        for ((&label, atom), (score, &weight)) in labels.iter().zip(&self.atom_of).zip(self.scores.iter().zip(weights))
-        {
-            if weight > 0.0 && atom.is_none() && of_all > 0.0 {
-                let place = (score - self.low) / self.step;
-                add_kernel(&mut density, place, of_all, weight);
-                if widths[label] > 0.0 {
-                    add_kernel(&mut densities[label], place, widths[label], weight);
-                }
-            }
+        classes.iter().map(|of| of.weight * (of.distance(&all) / 2.0).min(1.0)).sum::<f64>() / all.weight
+    }
+}
+
+/// The distribution of the outputs of a class, or of all.
+#[derive(Clone)]
+struct ClassDistribution {
+    /// The weight of all rows.
+    weight: f64,
+    /// The weight of each atom.
+    atoms: Vec<f64>,
+    /// The moments of the other rows.
+    spread: Spread,
+    /// The width of their kernels in steps of the grid; 0 without spread.
+    width: f64,
+    /// Their density times its weight, the width and sqrt(2 pi).
+    density: [f64; GRID],
+}
+
+impl ClassDistribution {
+    fn new(atoms: usize) -> Self {
+        Self { weight: 0.0, atoms: vec![0.0; atoms], spread: Spread::default(), width: 0.0, density: [0.0; GRID] }
+    }
+
+    fn add(&mut self, atom: Option<usize>, score: f64, weight: f64) {
+        self.weight += weight;
+        match atom {
+            Some(atom) => self.atoms[atom] += weight,
+            None => self.spread.add(score, weight),
         }
-        let share = |class: usize| {
-            if sizes[class] == 0.0 {
-                return 0.0;
-            }
-            let of_class = &counted[self.atoms * class..self.atoms * (class + 1)];
-            let of_atoms = of_class.iter().zip(&counted[self.atoms * count..]);
-            let atoms: f64 = of_atoms.map(|(own, all)| (own / sizes[class] - all / total).abs()).sum();
-            let (own, width) = (&densities[class], widths[class]);
-            let smooth = if of_all == 0.0 || width == 0.0 {
-                // A class without spread is a point, at the maximum distance from any density.
-                all.weight / total + classes[class].weight / sizes[class]
-            } else {
-                let gap = |k: usize| (density[k] / (total * of_all) - own[k] / (sizes[class] * width)).abs();
-                ((0..GRID).map(gap).sum::<f64>() - (gap(0) + gap(GRID - 1)) / 2.0) / TAU.sqrt()
-            };
-            sizes[class] * ((atoms + smooth) / 2.0).min(1.0)
-        };
-        (0..*count).map(share).sum::<f64>() / total
+    }
+
+    /// Returns the distance from the distribution of all; 0 without rows.
+    fn distance(&self, all: &Self) -> f64 {
+        if self.weight == 0.0 {
+            return 0.0;
+        }
+        let atoms =
+            self.atoms.iter().zip(&all.atoms).map(|(of, all_of)| (of / self.weight - all_of / all.weight).abs());
+        let atoms: f64 = atoms.sum();
+        if all.width == 0.0 || self.width == 0.0 {
+            // A class without spread is a point, at the maximum distance from any density.
+            return atoms + (all.spread.weight / all.weight + self.spread.weight / self.weight);
+        }
+        let (scale, all_scale) = (self.weight * self.width, all.weight * all.width);
+        let gaps = all.density.iter().zip(&self.density).map(|(all, of)| (all / all_scale - of / scale).abs());
+        let gaps: Vec<f64> = gaps.collect();
+        atoms + (gaps.iter().sum::<f64>() - (gaps[0] + gaps[GRID - 1]) / 2.0) / TAU.sqrt()
     }
 }
 

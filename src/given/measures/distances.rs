@@ -4,7 +4,7 @@ use crate::given::order::{Order, Partition};
 
 /// Returns the distance of the distribution function of the rows of every class from that of all rows, `order` being
 /// that of the output: the largest difference of the two, after Kolmogorov and Smirnov. 0 for a class without rows.
-pub fn distances(order: &Order, (labels, count): &Partition) -> Vec<f64> {
+pub fn distances(order: &Order, Partition { labels, count }: &Partition) -> Vec<f64> {
     let (mut rows_of, mut largest) = (vec![0.0; *count], vec![0.0_f64; *count]);
     labels.iter().for_each(|&label| rows_of[label] += 1.0);
     let total = labels.len() as f64;

@@ -15,35 +15,41 @@ pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
     let rows = sorted.len();
     let ties: Vec<Tie> = starts.windows(2).map(|ends| Tie::new(&sorted[ends[0]..ends[1]])).collect();
     let mut tie_of = vec![0; rows];
-    starts.windows(2).enumerate().for_each(|(tie, ends)| tie_of[ends[0]..ends[1]].fill(tie));
+    for (tie, ends) in starts.windows(2).enumerate() {
+        tie_of[ends[0]..ends[1]].fill(tie);
+    }
     let wave: Vec<usize> = tie_of.iter().step_by(2).chain(tie_of.iter().skip(1).step_by(2).rev()).copied().collect();
     let total: f64 = sorted.iter().map(|z| z * z).sum();
-    let power = |harmonic: usize| {
-        let (sine, cosine) = libm::sincos(TAU * harmonic as f64 / rows as f64);
-        let (mut at, mut sums) = ((1.0, 0.0), vec![(0.0, 0.0); ties.len()]);
-        for (k, &tie) in wave.iter().enumerate() {
-            // Computed directly from time to time, because rounding grows with the rows.
-            if k % 256 == 0 {
-                let (sine, cosine) = libm::sincos(TAU * (harmonic * k % rows) as f64 / rows as f64);
-                at = (cosine, sine);
-            }
-            let sum: &mut (f64, f64) = &mut sums[tie];
-            *sum = (sum.0 + at.0, sum.1 + at.1);
-            at = (at.0 * cosine - at.1 * sine, at.0 * sine + at.1 * cosine);
-        }
-        let (mut re, mut im, mut spread) = (0.0, 0.0, 0.0);
-        for (tie, (cosines, sines)) in ties.iter().zip(sums) {
-            re += tie.mean * cosines;
-            im += tie.mean * sines;
-            // For values in random order at fixed places.
-            spread += tie.variance * (tie.rows - (cosines * cosines + sines * sines) / tie.rows);
-        }
-        re * re + im * im + spread
-    };
     let harmonics = HARMONICS.min((rows - 1) / 2);
-    let share = 2.0 * (1..=harmonics).map(power).sum::<f64>() / (rows as f64 * total);
+    let power: f64 = (1..=harmonics).map(|harmonic| power(&ties, &wave, harmonic)).sum();
+    let share = 2.0 * power / (rows as f64 * total);
     let noise = 2.0 * harmonics as f64 / rows as f64;
     share - noise / (1.0 - noise) * (1.0 - share)
+}
+
+/// Returns the power of one harmonic of a wave of rows with these `ties`.
+fn power(ties: &[Tie], wave: &[usize], harmonic: usize) -> f64 {
+    let rows = wave.len();
+    let (sine, cosine) = libm::sincos(TAU * harmonic as f64 / rows as f64);
+    let (mut at, mut sums) = ((1.0, 0.0), vec![(0.0, 0.0); ties.len()]);
+    for (k, &tie) in wave.iter().enumerate() {
+        // Computed directly from time to time, because rounding grows with the rows.
+        if k % 256 == 0 {
+            let (sine, cosine) = libm::sincos(TAU * (harmonic * k % rows) as f64 / rows as f64);
+            at = (cosine, sine);
+        }
+        let sum: &mut (f64, f64) = &mut sums[tie];
+        *sum = (sum.0 + at.0, sum.1 + at.1);
+        at = (at.0 * cosine - at.1 * sine, at.0 * sine + at.1 * cosine);
+    }
+    let (mut re, mut im, mut spread) = (0.0, 0.0, 0.0);
+    for (tie, (cosines, sines)) in ties.iter().zip(sums) {
+        re += tie.mean * cosines;
+        im += tie.mean * sines;
+        // For values in random order at fixed places.
+        spread += tie.variance * (tie.rows - (cosines * cosines + sines * sines) / tie.rows);
+    }
+    re * re + im * im + spread
 }
 
 /// Outputs of rows with the same input.

@@ -2,7 +2,9 @@
 
 use statrs::distribution::{ContinuousCDF, Gamma};
 
+use super::Measured;
 use crate::given::drawn_rows;
+use crate::uncertainty::Estimate;
 
 /// Maximum number of rows, a random part of those of a larger table: the time grows with their square.
 pub const MAX_ROWS: usize = 4096;
@@ -28,8 +30,7 @@ impl Kernel {
         let mean = apportion_base::sum::mean(&scaled);
         let sd = (scaled.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
         let x: Vec<f64> = scaled.iter().map(|x| (x - mean) / sd).collect();
-        let row = |a: &f64| x.iter().map(|b| kernel(*a, *b)).sum::<f64>() / count;
-        let means: Vec<f64> = x.iter().map(row).collect();
+        let means: Vec<f64> = x.iter().map(|a| x.iter().map(|b| kernel(*a, *b)).sum::<f64>() / count).collect();
         let mean = means.iter().sum::<f64>() / count;
         Some(Self { x, means, mean })
     }
@@ -63,22 +64,18 @@ impl Outputs {
     /// Draws at most [`MAX_ROWS`] rows of a table by `seed`: the first ones of a sorted table would be a part of the
     /// input's range. `None` if they have one value.
     pub fn new(z: &[f64], seed: u64) -> Option<Self> {
-        let mut rows: Vec<usize> = (0..z.len()).collect();
-        if z.len() > MAX_ROWS {
-            rows = drawn_rows(z.len(), MAX_ROWS, seed);
-            rows.sort_unstable();
-        }
+        let mut rows = drawn_rows(z.len(), MAX_ROWS, seed);
+        rows.sort_unstable();
         let kernel = Kernel::new(&taken(z, &rows))?;
         let count = kernel.x.len();
-        let squares = |i: usize| (0..count).map(|j| kernel.centred(i, j).powi(2)).sum::<f64>();
-        let squares = (0..count).map(squares).sum();
+        let squares = (0..count).map(|i| (0..count).map(|j| kernel.centred(i, j).powi(2)).sum::<f64>()).sum();
         Some(Self { rows, kernel, squares })
     }
 
     /// Computes HSIC(X, Y)/sqrt(HSIC(X, X) HSIC(Y, Y)) by V-statistics, and the probability that independent columns
     /// reach it, by the gamma distribution of the same mean and variance (Gretton et al. 2008, eq. 9 with its
     /// appendix). `None` if the input has one value in the rows that are used.
-    pub fn with(&self, x: &[f64]) -> Option<(f64, Option<f64>)> {
+    pub fn measure(&self, x: &[f64]) -> Option<Measured> {
         let x = Kernel::new(&taken(x, &self.rows))?;
         let (y, count) = (&self.kernel, self.kernel.x.len());
         let (mut products, mut squares, mut pairs) = (0.0, 0.0, 0.0);
@@ -91,9 +88,8 @@ impl Outputs {
             }
         }
         let (of_x, of_y) = ((0..count).map(|i| x.centred(i, i)), (0..count).map(|i| y.centred(i, i)));
-        let own: Vec<(f64, f64)> = of_x.zip(of_y).collect();
-        products = 2.0 * products + own.iter().map(|(x, y)| x * y).sum::<f64>();
-        squares = 2.0 * squares + own.iter().map(|(x, _)| x * x).sum::<f64>();
+        products = 2.0 * products + of_x.clone().zip(of_y).map(|(x, y)| x * y).sum::<f64>();
+        squares = 2.0 * squares + of_x.map(|x| x * x).sum::<f64>();
         let r2 = products / (squares * self.squares).sqrt();
         let n = count as f64;
         let (mean_x, mean_y) = (x.mean_of_pairs(), y.mean_of_pairs());
@@ -101,7 +97,8 @@ impl Outputs {
         let variance =
             2.0 * (2.0 * pairs / (n * (n - 1.0))) * (n - 4.0) * (n - 5.0) / (n * (n - 1.0) * (n - 2.0) * (n - 3.0));
         let gamma = Gamma::new(mean * mean / variance, mean / variance).ok();
-        r2.is_finite().then(|| (r2, gamma.map(|gamma| gamma.sf(products / (n * n)))))
+        let p_value = gamma.map(|gamma| gamma.sf(products / (n * n)));
+        r2.is_finite().then(|| Measured { estimate: Estimate::alone(r2), p_value })
     }
 }
 

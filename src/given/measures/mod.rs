@@ -90,14 +90,14 @@ pub struct InputMeasures {
 }
 
 impl InputMeasures {
-    /// Returns one of them, if it is known.
+    /// Returns one of them, if it exists.
     pub fn get(&self, measure: Measure) -> Option<Measured> {
         self.measures.get(&measure).copied()
     }
 
     /// Returns whether an input without influence may have this measure: its p-value exceeds [`SIGNIFICANT`].
     pub fn may_be_chance(&self, measure: Measure) -> bool {
-        self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
+        self.get(measure).and_then(|measured| measured.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
     }
 }
 
@@ -135,11 +135,11 @@ pub fn measures(
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
     let is_random = indices.points == PointSet::Independent;
-    let known = Known { has_p_values: is_random, has_intervals: is_random };
-    let of_output = |(number, output): (usize, &Column)| {
-        Ok(Job::new(&output.values, &Measure::ALL, [seed, number as u64])?.measures(inputs, known))
-    };
-    outputs.iter().enumerate().map(of_output).collect()
+    let outputs = outputs.iter().enumerate().map(|(number, output)| {
+        let setting = Setting { seed, number: number as u64, has_p_values: is_random, has_intervals: is_random };
+        Ok(Job::new(&output.values, &Measure::ALL, setting)?.measures(inputs))
+    });
+    outputs.collect()
 }
 
 /// Computes the measures `wanted` of one output with respect to every input, for rows that are draws from the
@@ -149,16 +149,20 @@ pub(crate) fn measures_of_rows(
     inputs: &[Column],
     output: &[f64],
     wanted: &[Measure],
-    seed: [u64; 2],
+    seed: u64,
+    number: u64,
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
-    let known = Known { has_p_values: independent, has_intervals: true };
-    Ok(Job::new(output, wanted, seed)?.measures(inputs, known))
+    let setting = Setting { seed, number, has_p_values: independent, has_intervals: true };
+    Ok(Job::new(output, wanted, setting)?.measures(inputs))
 }
 
-/// Known properties of the rows.
+/// The random numbers of an output, and what its rows allow.
 #[derive(Clone, Copy)]
-struct Known {
+struct Setting {
+    seed: u64,
+    /// The number of the output.
+    number: u64,
     has_p_values: bool,
     /// Whether delta has intervals.
     has_intervals: bool,
@@ -172,15 +176,25 @@ struct Job<'a> {
     /// Of the values themselves: subtracting the mean first would make all others equal next to a huge value.
     order: Order,
     distribution: OutputDistribution,
-    seed: [u64; 2],
+    setting: Setting,
+}
+
+/// One input.
+struct RankedInput<'a> {
+    number: u64,
+    column: &'a Column,
+    order: Order,
+    classes: Classes,
 }
 
 /// Classes of the rows by one input.
 struct Classes {
-    /// Classes for delta, and twice as many.
-    delta: [Partition; 2],
+    /// Classes for delta.
+    delta: Partition,
+    /// Twice as many.
+    finer_delta: Partition,
     /// Classes for PAWN.
-    coarse: Partition,
+    pawn: Partition,
 }
 
 impl Classes {
@@ -188,14 +202,17 @@ impl Classes {
         let count = classes_for(rows);
         // Shares of values need fewer rows than densities, and miss more of the effect inside a class.
         let of_delta = if has_atoms { 2 * count } else { count };
-        let delta = [of_delta, 2 * of_delta].map(|count| order.classes(count));
-        Self { delta, coarse: order.classes(PAWN_CLASSES) }
+        let (delta, finer_delta) = (order.classes(of_delta), order.classes(2 * of_delta));
+        Self { delta, finer_delta, pawn: order.classes(PAWN_CLASSES) }
     }
 
     /// Returns the classes with the rows in another order.
     fn permuted(&self, rows: &[usize]) -> Self {
-        let permuted = |(labels, count): &Partition| (rows.iter().map(|&row| labels[row]).collect(), *count);
-        Self { delta: self.delta.each_ref().map(permuted), coarse: permuted(&self.coarse) }
+        let [delta, finer_delta, pawn] = [&self.delta, &self.finer_delta, &self.pawn].map(|classes| Partition {
+            labels: rows.iter().map(|&row| classes.labels[row]).collect(),
+            count: classes.count,
+        });
+        Self { delta, finer_delta, pawn }
     }
 }
 
@@ -216,79 +233,95 @@ fn classes_for(rows: usize) -> usize {
 }
 
 impl<'a> Job<'a> {
-    fn new(values: &[f64], wanted: &'a [Measure], seed: [u64; 2]) -> Result<Self, NoVariance> {
+    fn new(values: &[f64], wanted: &'a [Measure], setting: Setting) -> Result<Self, NoVariance> {
         let (z, order, distribution) = (centred(values)?, Order::from_values(values), OutputDistribution::new(values));
-        Ok(Self { wanted, z, order, distribution, seed })
+        Ok(Self { wanted, z, order, distribution, setting })
     }
 
     fn wants(&self, measure: Measure) -> bool {
         self.wanted.contains(&measure)
     }
 
+    fn has_intervals(&self) -> bool {
+        self.setting.has_intervals && self.wants(Measure::Delta)
+    }
+
     fn random(&self, stream: u64) -> ChaCha8Rng {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed[0]);
-        random.set_stream(self.seed[1] << 32 | stream);
+        let mut random = ChaCha8Rng::seed_from_u64(self.setting.seed);
+        random.set_stream(self.setting.number << 32 | stream);
         random
     }
 
-    fn measures(&self, inputs: &[Column], known: Known) -> Vec<InputMeasures> {
-        let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
+    fn measures(&self, inputs: &[Column]) -> Vec<InputMeasures> {
         let has_atoms = self.distribution.has_atoms();
-        let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len(), has_atoms)).collect();
-        let has_interval = known.has_intervals && self.wants(Measure::Delta);
+        let inputs = inputs.iter().enumerate().map(|(number, column)| {
+            let order = Order::from_values(&column.values);
+            let classes = Classes::new(&order, self.z.len(), has_atoms);
+            RankedInput { number: number as u64, column, order, classes }
+        });
+        let inputs: Vec<RankedInput<'_>> = inputs.collect();
         // The distribution by chance depends only on the ties of an input. An interval needs it too.
         let mut chance: BTreeMap<&[usize], Chance> = BTreeMap::new();
-        if known.has_p_values || has_interval {
-            for (order, classes) in orders.iter().zip(&classes) {
-                chance.entry(order.starts()).or_insert_with(|| self.by_chance(order, classes));
+        if self.setting.has_p_values || self.has_intervals() {
+            for input in &inputs {
+                chance.entry(input.order.starts()).or_insert_with(|| self.by_chance(&input.order, &input.classes));
             }
         }
-        let outputs = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.seed[0]) } else { None };
-        let nothing = Measured { estimate: Estimate::alone(0.0), p_value: None };
-        let of_input = |number: usize| {
-            let (classes, order) = (&classes[number], &orders[number]);
-            let mut values = [nothing; Measure::ALL.len()];
-            if order.groups() > 1 {
-                let found = self.plain(order, classes, order.rows());
-                let by_chance = chance.get(order.starts());
-                let permutations = by_chance.map_or(&[][..], |chance| &chance.measures);
-                for (place, (measured, found)) in values.iter_mut().zip(found).enumerate() {
-                    let larger = permutations.iter().filter(|by_chance| by_chance[place] >= found).count();
-                    let p_value = (1 + larger) as f64 / (1 + permutations.len()) as f64;
-                    let estimate = Estimate::alone(found);
-                    *measured = Measured { estimate, p_value: (!permutations.is_empty()).then_some(p_value) };
-                }
-                if let Some(chance) = by_chance.filter(|_| has_interval) {
-                    let delta = &mut values[Measure::Delta as usize];
-                    delta.estimate = self.delta(classes, delta.estimate.estimate, chance, number as u64);
-                    if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
-                        // If it is not distinguished from chance, it may be 0.
-                        interval.low = 0.0;
-                    }
-                }
-                let kernels = outputs.as_ref().and_then(|outputs| outputs.with(&inputs[number].values));
-                let (r2, p_value) = kernels.unwrap_or((f64::NAN, None));
-                values[Measure::Hsic as usize] = Measured { estimate: Estimate::alone(r2), p_value };
-                if !known.has_p_values {
-                    values.iter_mut().for_each(|measured| measured.p_value = None);
-                }
+        let kernels = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.setting.seed) } else { None };
+        let measures = inputs.par_iter().map(|input| {
+            let mut values = [Measured { estimate: Estimate::alone(0.0), p_value: None }; Measure::ALL.len()];
+            if input.order.groups() > 1 {
+                values = self.measures_of(input, chance.get(input.order.starts()), kernels.as_ref());
             }
-            let known = Measure::ALL.into_iter().zip(values);
-            let known = known.filter(|(measure, of)| self.wants(*measure) && of.estimate.estimate.is_finite());
-            InputMeasures { input: inputs[number].name.clone(), measures: known.collect() }
-        };
-        (0..inputs.len()).into_par_iter().map(of_input).collect()
+            let values = Measure::ALL.into_iter().zip(values);
+            let existing = values.filter(|(measure, of)| self.wants(*measure) && of.estimate.estimate.is_finite());
+            InputMeasures { input: input.column.name.clone(), measures: existing.collect() }
+        });
+        measures.collect()
+    }
+
+    /// Computes all measures of an input that varies; those that do not exist are not finite.
+    fn measures_of(
+        &self,
+        input: &RankedInput<'_>,
+        chance: Option<&Chance>,
+        kernels: Option<&hsic::Outputs>,
+    ) -> [Measured; Measure::ALL.len()] {
+        let mut values = [Measured { estimate: Estimate::alone(f64::NAN), p_value: None }; Measure::ALL.len()];
+        let plain = self.plain(&input.order, &input.classes, input.order.rows());
+        let permutations = chance.map_or(&[][..], |chance| &chance.measures);
+        for (place, (measured, plain)) in values.iter_mut().zip(plain).enumerate() {
+            let larger = permutations.iter().filter(|by_chance| by_chance[place] >= plain).count();
+            let p_value = (1 + larger) as f64 / (1 + permutations.len()) as f64;
+            *measured =
+                Measured { estimate: Estimate::alone(plain), p_value: (!permutations.is_empty()).then_some(p_value) };
+        }
+        if let Some(chance) = chance.filter(|_| self.has_intervals()) {
+            let delta = &mut values[Measure::Delta as usize];
+            delta.estimate = self.delta(&input.classes, delta.estimate.estimate, chance, input.number);
+            if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
+                // If it is not distinguished from chance, it may be 0.
+                interval.low = 0.0;
+            }
+        }
+        if let Some(measured) = kernels.and_then(|kernels| kernels.measure(&input.column.values)) {
+            values[Measure::Hsic as usize] = measured;
+        }
+        if !self.setting.has_p_values {
+            values.iter_mut().for_each(|measured| measured.p_value = None);
+        }
+        values
     }
 
     /// Computes all but the kernels, for the rows in the order of the input.
     fn plain(&self, order: &Order, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
-        let mut slides = distances(&self.order, &classes.coarse);
+        let mut slides = distances(&self.order, &classes.pawn);
         slides.sort_by(f64::total_cmp);
         let middle = slides.len() / 2;
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
             fourier::first_order(&rows.iter().map(|&row| self.z[row]).collect::<Vec<f64>>(), order.starts()),
-            if self.wants(Measure::Delta) { self.plain_delta(&classes.delta[0], 1.0) } else { f64::NAN },
+            if self.wants(Measure::Delta) { self.plain_delta(&classes.delta, 1.0) } else { f64::NAN },
             median,
             slides[slides.len() - 1],
         ]
@@ -300,18 +333,19 @@ impl<'a> Job<'a> {
 
     /// Computes the measures of inputs with these ties and without influence.
     fn by_chance(&self, order: &Order, classes: &Classes) -> Chance {
-        let permutation = |number: usize| {
+        let numbers = (0..PERMUTATIONS).into_par_iter();
+        let permutations = numbers.map(|number| {
             let mut random = self.random(1 << 16 | number as u64);
             let mut rows: Vec<usize> = (0..self.z.len()).collect();
             shuffle(&mut rows, &mut random);
             let classes = classes.permuted(&rows);
-            let finer = number < FINER_PERMUTATIONS && self.wants(Measure::Delta);
-            let finer = finer.then(|| self.plain_delta(&classes.delta[1], NARROWER));
-            (self.plain(order, &classes, &rows), finer)
-        };
-        let all: Vec<([f64; PERMUTED], Option<f64>)> = (0..PERMUTATIONS).into_par_iter().map(permutation).collect();
-        let finer_delta = all.iter().filter_map(|(_, finer)| *finer).sum::<f64>() / FINER_PERMUTATIONS as f64;
-        Chance { measures: all.into_iter().map(|(measures, _)| measures).collect(), finer_delta }
+            let has_finer = number < FINER_PERMUTATIONS && self.wants(Measure::Delta);
+            let finer_delta = has_finer.then(|| self.plain_delta(&classes.finer_delta, NARROWER));
+            (self.plain(order, &classes, &rows), finer_delta)
+        });
+        let (measures, finer_deltas): (Vec<[f64; PERMUTED]>, Vec<Option<f64>>) = permutations.unzip();
+        let finer_delta = finer_deltas.into_iter().flatten().sum::<f64>() / FINER_PERMUTATIONS as f64;
+        Chance { measures, finer_delta }
     }
 
     /// Corrects delta, where `plain` is the estimate with all of its noise. For an input without influence it is d_0,
@@ -321,41 +355,37 @@ impl<'a> Job<'a> {
     fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
         let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
         let noise = noise / chance.measures.len() as f64;
-        let freed = |found: f64, noise: f64| {
-            let square = found.clamp(0.0, 1.0).powi(2);
-            ((square - noise * noise).max(0.0) / (1.0 - noise * noise).max(f64::MIN_POSITIVE)).sqrt()
-        };
-        let half_width = |classes: &Partition, part: f64| {
-            let resample = |number: usize| {
-                let mut random = self.random(1 << 24 | input << 8 | number as u64);
-                let (rows, mut weights) = (self.z.len(), vec![0.0; self.z.len()]);
-                (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
-                self.distribution.delta(classes, &weights, part)
-            };
-            half_width(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>())
-        };
-        let estimate = freed(plain, noise);
-        let around = half_width(&classes.delta[0], 1.0);
-        let finer = self.plain_delta(&classes.delta[1], NARROWER);
-        let around_finer = half_width(&classes.delta[1], NARROWER);
-        let left = LEFT * (freed(finer, chance.finer_delta) - estimate);
-        let high = freed(plain + around, noise).max(freed(finer + around_finer, chance.finer_delta) + left);
-        // If an input has an effect, chance adds less than if none has.
-        let high = high.max(plain + around);
-        // No delta is above 1.
-        Estimate {
-            estimate,
-            interval: Some(Interval { low: freed(plain - around, noise), high: high.clamp(estimate, 1.0) }),
-        }
+        let estimate = without_noise(plain, noise);
+        let around = self.half_width(&classes.delta, 1.0, input);
+        let finer = self.plain_delta(&classes.finer_delta, NARROWER);
+        let finer_high = finer + self.half_width(&classes.finer_delta, NARROWER, input);
+        let left = LEFT * (without_noise(finer, chance.finer_delta) - estimate);
+        let high = without_noise(plain + around, noise).max(without_noise(finer_high, chance.finer_delta) + left);
+        // If an input has an effect, chance adds less than if none has. No delta is above 1.
+        let high = high.max(plain + around).clamp(estimate, 1.0);
+        Estimate { estimate, interval: Some(Interval { low: without_noise(plain - around, noise), high }) }
+    }
+
+    /// Returns the half width of the interval of delta in these classes, from resamples of the rows.
+    fn half_width(&self, classes: &Partition, part: f64, input: u64) -> f64 {
+        let numbers = (0..RESAMPLES).into_par_iter();
+        let deltas = numbers.map(|number| {
+            let mut random = self.random(1 << 24 | input << 8 | number as u64);
+            let (rows, mut weights) = (self.z.len(), vec![0.0; self.z.len()]);
+            (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
+            self.distribution.delta(classes, &weights, part)
+        });
+        let deltas: Vec<f64> = deltas.collect();
+        let (count, mean) = (RESAMPLES as f64, deltas.iter().sum::<f64>() / RESAMPLES as f64);
+        let squares: f64 = deltas.iter().map(|delta| (delta - mean).powi(2)).sum();
+        NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt()
     }
 }
 
-/// Returns the half width of the interval from these resamples.
-fn half_width(resampled: &[f64]) -> f64 {
-    let count = resampled.len() as f64;
-    let mean = resampled.iter().sum::<f64>() / count;
-    let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
-    NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt()
+/// Returns delta without the `noise` of an input without influence.
+fn without_noise(delta: f64, noise: f64) -> f64 {
+    let square = delta.clamp(0.0, 1.0).powi(2);
+    ((square - noise * noise).max(0.0) / (1.0 - noise * noise).max(f64::MIN_POSITIVE)).sqrt()
 }
 
 #[cfg(test)]

@@ -40,14 +40,16 @@ fn other_programs_have_the_same_numbers() {
     ];
     let inputs = uniform(720, 3, 7);
     let y = output(&inputs, |x| libm::exp(x[0]) + 4.0 * (x[1] - 0.5).powi(2) * x[0]);
-    let job = Job::new(&y.values, &Measure::ALL, [0, 0]).unwrap();
+    let setting = Setting { seed: 0, number: 0, has_p_values: true, has_intervals: true };
+    let job = Job::new(&y.values, &Measure::ALL, setting).unwrap();
     for (input, expected) in inputs.iter().zip(EXPECTED) {
         let order = Order::from_values(&input.values);
-        let found = job.plain(&order, &Classes::new(&order, 720, false), order.rows());
-        for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-12, "{}: {found} {expected}", input.name);
+        let measures = job.plain(&order, &Classes::new(&order, 720, false), order.rows());
+        for (value, expected) in measures.iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-12, "{}: {value} {expected}", input.name);
         }
-        let (r2, p_value) = hsic::Outputs::new(&job.z, 0).unwrap().with(&input.values).unwrap();
+        let kernels = hsic::Outputs::new(&job.z, 0).unwrap().measure(&input.values).unwrap();
+        let (r2, p_value) = (kernels.estimate.estimate, kernels.p_value);
         assert!((r2 - expected[4]).abs() < 1e-12, "{}: {r2}", input.name);
         let p_value = p_value.unwrap();
         assert!((p_value / expected[5] - 1.0).abs() < 1e-8, "{}: {p_value}", input.name);
@@ -62,9 +64,9 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
     for input in &mut inputs {
         input.values.iter_mut().for_each(|u| *u = statrs::distribution::ContinuousCDF::inverse_cdf(&normal, *u));
     }
-    let found = measured(&inputs, output(&inputs, |x| 2.0 * x[0] + x[1]), 0);
-    for (found, exact) in found.iter().zip([0.505_497_139, 0.160_393_820]) {
-        let delta = found.get(Measure::Delta).unwrap().estimate;
+    let measures = measured(&inputs, output(&inputs, |x| 2.0 * x[0] + x[1]), 0);
+    for (value, exact) in measures.iter().zip([0.505_497_139, 0.160_393_820]) {
+        let delta = value.get(Measure::Delta).unwrap().estimate;
         let interval = delta.interval.unwrap();
         // Nineteen classes resolve the input only to the width of a class.
         assert!((-0.03..0.01).contains(&(delta.estimate - exact)), "{delta:?} {exact}");
@@ -75,8 +77,8 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
 #[test]
 fn the_interval_of_delta_ends_at_1() {
     let inputs = uniform(500, 2, 3);
-    let found = measured(&inputs, output(&inputs, |x| x[0] + 1e-6 * x[1]), 0);
-    let delta = found[0].get(Measure::Delta).unwrap().estimate;
+    let measures = measured(&inputs, output(&inputs, |x| x[0] + 1e-6 * x[1]), 0);
+    let delta = measures[0].get(Measure::Delta).unwrap().estimate;
     let interval = delta.interval.unwrap();
     assert!(delta.estimate > 0.7 && interval.high > 0.95 && interval.high <= 1.0, "{delta:?}");
 }
@@ -88,14 +90,14 @@ fn delta_does_not_change_when_the_output_is_bent_and_holds_what_wide_kernels_do_
         .iter_mut()
         .for_each(|input| input.values.iter_mut().for_each(|u| *u = std::f64::consts::PI * (2.0 * *u - 1.0)));
     let ishigami = |x: &[f64]| libm::sin(x[0]) + 7.0 * libm::sin(x[1]).powi(2) + 0.1 * x[2].powi(4) * libm::sin(x[0]);
-    let delta = |found: &InputMeasures| found.get(Measure::Delta).unwrap().estimate;
+    let delta = |value: &InputMeasures| value.get(Measure::Delta).unwrap().estimate;
     let plain: Vec<Estimate> = measured(&inputs, output(&inputs, ishigami), 1).iter().map(delta).collect();
     let bent = measured(&inputs, output(&inputs, |x| libm::exp(0.5 * ishigami(x))), 1);
     assert_eq!(plain, bent.iter().map(delta).collect::<Vec<Estimate>>());
     // By histograms of 10^6 points for each of 100 values of an input.
-    for (found, exact) in plain.iter().zip([0.265, 0.425, 0.21]) {
-        let interval = found.interval.unwrap();
-        assert!(interval.low < exact && exact < interval.high && interval.high < exact + 0.1, "{found:?} {exact}");
+    for (value, exact) in plain.iter().zip([0.265, 0.425, 0.21]) {
+        let interval = value.interval.unwrap();
+        assert!(interval.low < exact && exact < interval.high && interval.high < exact + 0.1, "{value:?} {exact}");
     }
 }
 
@@ -124,10 +126,10 @@ fn an_input_without_influence_is_significant_in_five_of_a_hundred_tables() {
     const TABLES: u64 = 100;
     for table in 0..TABLES {
         let inputs = uniform(60, 2, 1000 + table);
-        let found = measured(&inputs, output(&inputs[..1], |x| x[0] * x[0]), table);
+        let measures = measured(&inputs, output(&inputs[..1], |x| x[0] * x[0]), table);
         for measure in Measure::ALL {
-            seen[measure as usize] += usize::from(found[1].get(measure).unwrap().p_value.unwrap() <= 0.05);
-            assert!(found[0].get(measure).unwrap().p_value.unwrap() < 0.01);
+            seen[measure as usize] += usize::from(measures[1].get(measure).unwrap().p_value.unwrap() <= 0.05);
+            assert!(measures[0].get(measure).unwrap().p_value.unwrap() < 0.01);
         }
     }
     // Of 100 tables with a chance of 0.05, more than 12 are seen once in 500 times.
@@ -138,16 +140,16 @@ fn an_input_without_influence_is_significant_in_five_of_a_hundred_tables() {
 fn constant_inputs_and_even_points_have_no_p_values() {
     let mut inputs = uniform(64, 2, 5);
     inputs[1].values.fill(3.0);
-    let found = measured(&inputs, output(&inputs, |x| x[0]), 0);
-    for constant in found[1].measures.values() {
+    let measures = measured(&inputs, output(&inputs, |x| x[0]), 0);
+    for constant in measures[1].measures.values() {
         assert_eq!((constant.estimate.estimate, constant.p_value), (0.0, None));
     }
     let grid = |period: u32| (0..64).map(|k| f64::from(k / period % 8)).collect();
     let inputs: Vec<Column> =
         [("a", 1), ("b", 8)].map(|(name, p)| Column { name: name.into(), values: grid(p) }).into();
-    let found = measured(&inputs, output(&inputs, |x| x[0] + x[1]), 0);
+    let measures = measured(&inputs, output(&inputs, |x| x[0] + x[1]), 0);
     assert!(
-        found.iter().all(|of| of.measures.values().all(|of| of.p_value.is_none() && of.estimate.interval.is_none()))
+        measures.iter().all(|of| of.measures.values().all(|of| of.p_value.is_none() && of.estimate.interval.is_none()))
     );
 }
 
@@ -169,9 +171,9 @@ fn delta_of_outputs_with_values_that_many_rows_share() {
     for (name, of, exact) in cases {
         for rows in [300, 2000] {
             let inputs = uniform(rows, 3, 17);
-            let found = measured(&inputs, output(&inputs, of), 1);
-            for (found, exact) in found.iter().zip([exact[0], exact[1], 0.0]) {
-                let delta = found.get(Measure::Delta).unwrap().estimate;
+            let measures = measured(&inputs, output(&inputs, of), 1);
+            for (value, exact) in measures.iter().zip([exact[0], exact[1], 0.0]) {
+                let delta = value.get(Measure::Delta).unwrap().estimate;
                 let interval = delta.interval.unwrap();
                 let room = if rows == 300 { 0.17 } else { 0.085 };
                 assert!(

@@ -10,14 +10,14 @@ fn small_orders_by_hand() {
     assert_eq!((order.groups(), order.tied_pairs()), (3, 2.0));
     assert_eq!(order.labels(), [2, 0, 2, 1, 0]);
     assert_eq!(order.centred_ranks(), [1.5, -1.5, 1.5, 0.0, -1.5]);
-    assert_eq!(order.classes(2), (vec![1, 0, 1, 0, 0], 2));
-    assert_eq!(Order::from_values(&[2.0; 4]).classes(3), (vec![0; 4], 1));
+    assert_eq!(order.classes(2), Partition { labels: vec![1, 0, 1, 0, 0], count: 2 });
+    assert_eq!(Order::from_values(&[2.0; 4]).classes(3), Partition { labels: vec![0; 4], count: 1 });
 }
 
 #[test]
 fn values_without_ties_fill_classes_evenly() {
     let values: Vec<f64> = (0..64).map(|k| f64::from(k * 37 % 64)).collect();
-    let (classes, count) = Order::from_values(&values).classes(8);
+    let Partition { labels: classes, count } = Order::from_values(&values).classes(8);
     assert_eq!(count, 8);
     for class in 0..8 {
         assert_eq!(classes.iter().filter(|&&c| c == class).count(), 8);
@@ -28,7 +28,7 @@ proptest! {
     #[test]
     fn classes_keep_ties_and_a_least_size(values in prop::collection::vec(0..9i32, 2..80), wanted in 1..12usize) {
         let values: Vec<f64> = values.into_iter().map(f64::from).collect();
-        let (classes, count) = Order::from_values(&values).classes(wanted);
+        let Partition { labels: classes, count } = Order::from_values(&values).classes(wanted);
         prop_assert!(count <= wanted.max(1));
         for class in 0..count {
             let size = classes.iter().filter(|&&c| c == class).count();

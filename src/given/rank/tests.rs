@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 
 fn rank_first_order(x: &[f64], y: &[f64], seed: u64) -> Estimate {
-    of_order(&Order::from_values(x), &crate::given::centred(y).unwrap(), (seed, 0))
+    of_order(&Order::from_values(x), &crate::given::centred(y).unwrap(), seed, 0)
 }
 
 /// Evaluates the formula as printed, ties in the order of `rows`.

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use crate::correction::in_parts;
 use crate::surrogate::fit::Expansion;
+use crate::surrogate::gram::add_scaled;
 use crate::surrogate::net::Net;
 
 /// A number that is a mean over rows.
@@ -21,7 +22,7 @@ pub(super) struct Contribution {
     /// The contribution of each row of the fold.
     rows: Vec<f64>,
     /// The other influences of each row.
-    moves: Vec<f64>,
+    pub moves: Vec<f64>,
 }
 
 impl Contribution {
@@ -30,18 +31,12 @@ impl Contribution {
     }
 
     fn add(&mut self, more: &[f64]) {
-        self.rows.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        add_scaled(&mut self.rows, 1.0, more);
     }
 
     /// Adds influences that sum to 0 over all rows of the table.
     pub fn move_by(&mut self, more: &[f64]) {
-        self.moves.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
-    }
-
-    /// Returns these influences.
-    #[cfg(test)]
-    pub fn moves(&self) -> &[f64] {
-        &self.moves
+        add_scaled(&mut self.moves, 1.0, more);
     }
 
     fn in_parts(&self) -> Folded {
@@ -83,8 +78,10 @@ pub(super) struct FoldSums {
     pub rows: usize,
     /// Those to V with the mean square of the residual.
     pub sums: BTreeMap<To, Folded>,
-    /// Sum and sum of squares of the residuals.
-    pub left: (f64, f64),
+    /// Sum of the residuals.
+    pub residual: f64,
+    /// Sum of their squares.
+    pub residual_square: f64,
 }
 
 impl Contributions {
@@ -92,16 +89,16 @@ impl Contributions {
     pub fn new(net: &Net, expansion: &Expansion) -> Self {
         let mut left = net.outputs[0].clone();
         let mut values = Vec::new();
-        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
+        for (term, b) in expansion.iter() {
             net.fill(term, 0, &mut values);
-            left.iter_mut().zip(&values).for_each(|(e, p)| *e -= b * p);
+            add_scaled(&mut left, -b, &values);
         }
         let squares: Vec<f64> = left.iter().map(|e| e * e).collect();
         let mut all = Self { contributions: BTreeMap::new(), left };
-        for (term, &b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
+        for (term, b) in expansion.varying() {
             net.fill(term, 0, &mut values);
-            let of_row = |(p, e): (&f64, &f64)| b * b + 2.0 * b * p * e;
-            let contributions: Vec<f64> = values.iter().zip(&all.left).map(of_row).collect();
+            let contributions = values.iter().zip(&all.left).map(|(p, e)| b * b + 2.0 * b * p * e);
+            let contributions: Vec<f64> = contributions.collect();
             all.to(To::Variance).add(&contributions);
             if let [(input, _)] = term[..] {
                 all.to(To::FirstOrder(input)).add(&contributions);
@@ -125,7 +122,8 @@ impl Contributions {
         FoldSums {
             rows: self.left.len(),
             sums: self.contributions.iter().map(|(to, of)| (*to, of.in_parts())).collect(),
-            left: (self.left.iter().sum(), self.left.iter().map(|e| e * e).sum()),
+            residual: self.left.iter().sum(),
+            residual_square: self.left.iter().map(|e| e * e).sum(),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::given::order::Order;
 use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
 use crate::surrogate::basis::Family;
 use crate::surrogate::{Trial, trials};
-use apportion_base::sum::rescaled;
+use apportion_base::sum::{range, rescaled};
 
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
 const WIDE: f64 = 3.0;
@@ -35,7 +35,7 @@ pub(super) struct Coordinates {
     pub name: &'static str,
 }
 
-/// Returns the trials without known distributions: the values, the logarithms of wide and skewed columns, the ranks.
+/// Returns the trials without given distributions: the values, the logarithms of wide and skewed columns, the ranks.
 pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates> {
     let values: Vec<Vec<f64>> = inputs.iter().map(|input| rescaled(&input.values).0).collect();
     let logarithms: Vec<Option<Vec<f64>>> = values.iter().map(|x| logarithm(x)).collect();
@@ -46,36 +46,40 @@ pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates
         let half = ranks.len() as f64 / 2.0;
         ranks.into_iter().map(|rank| rank / half).collect()
     });
-    let of = |name: &'static str, values: Vec<Vec<f64>>| Coordinates {
-        trial: Trial { families: values.iter().map(|x| Family::of_column(x)).collect(), hermite_degree: 0, ratio: 1.0 },
-        values,
-        name,
-    };
     let has_logarithms = logarithms.iter().any(Option::is_some);
-    let mut all = vec![of("values", values)];
-    all.extend(has_logarithms.then(|| of("values and logarithms", mixed)));
-    all.push(of("ranks", ranks.collect()));
+    let mut all = vec![Coordinates::new("values", values)];
+    all.extend(has_logarithms.then(|| Coordinates::new("values and logarithms", mixed)));
+    all.push(Coordinates::new("ranks", ranks.collect()));
     all
+}
+
+impl Coordinates {
+    /// Creates those whose distributions are those of their `values`.
+    fn new(name: &'static str, values: Vec<Vec<f64>>) -> Self {
+        let families = values.iter().map(|x| Family::of_column(x)).collect();
+        Self { trial: Trial { families, hermite_degree: 0, ratio: 1.0 }, values, name }
+    }
 }
 
 /// Returns the logarithm of the absolute values of a wide column of one sign, if it is less skewed than they are.
 fn logarithm(x: &[f64]) -> Option<Vec<f64>> {
-    let size = |bound: fn(f64, f64) -> f64, from: f64| x.iter().map(|x| x.abs()).fold(from, bound);
+    let sizes: Vec<f64> = x.iter().map(|x| x.abs()).collect();
+    let (smallest, largest) = range(&sizes);
     let one_sign = x.iter().all(|x| *x > 0.0) || x.iter().all(|x| *x < 0.0);
-    if !one_sign || size(f64::max, 0.0) < WIDE * size(f64::min, f64::INFINITY) {
+    if !one_sign || largest < WIDE * smallest {
         return None;
     }
-    let logarithms: Vec<f64> = x.iter().map(|x| libm::log(x.abs())).collect();
+    let logarithms: Vec<f64> = sizes.into_iter().map(libm::log).collect();
     (skewness(&logarithms).abs() < skewness(x).abs()).then_some(logarithms)
 }
 
 fn skewness(x: &[f64]) -> f64 {
     let mean = apportion_base::sum::mean(x);
-    let moment = |power: i32| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / x.len() as f64;
-    moment(3) / libm::pow(moment(2), 1.5)
+    let [second, third] = [2, 3].map(|power| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / x.len() as f64);
+    third / libm::pow(second, 1.5)
 }
 
-/// Returns the trial with known distributions.
+/// Returns the trials with given distributions.
 ///
 /// # Errors
 /// [`SurrogateRefusal::OtherDistribution`] if a column has not been drawn from its distribution.
@@ -86,17 +90,16 @@ pub(super) fn of_distributions(
 ) -> Result<Vec<Coordinates>, SurrogateRefusal> {
     // The tail of the distribution of Kolmogorov (1933) is 2 exp(-2 x^2), of the largest distance times the root of the rows.
     let far = (libm::log(2.0 * inputs.len() as f64 / REFUSED_BY_CHANCE) / 2.0).sqrt();
-    let quantiles = |((input, order), distribution): ((&Column, &Order), &Distribution)| {
-        quantiles(&input.values, order, distribution, far)
-            .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })
-    };
-    // Compute all of them before the first refusal, which would otherwise be that of the fastest thread.
-    let values: Vec<Result<Vec<f64>, SurrogateRefusal>> =
-        inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect();
-    let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
+    let columns = inputs.par_iter().zip(orders).zip(distributions);
+    let quantiles: Vec<Option<Vec<f64>>> =
+        columns.map(|((input, order), distribution)| quantiles(&input.values, order, distribution, far)).collect();
+    if let Some(refused) = quantiles.iter().position(Option::is_none) {
+        return Err(SurrogateRefusal::OtherDistribution { input: inputs[refused].name.clone() });
+    }
+    let values: Vec<Vec<f64>> = quantiles.into_iter().flatten().collect();
     let families: Vec<Family> = distributions.iter().map(Family::new).collect();
-    let of = |trial: Trial| Coordinates { trial, values: values.clone(), name: "the given distributions" };
-    Ok(trials(&families).into_iter().map(of).collect())
+    let trials = trials(&families).into_iter();
+    Ok(trials.map(|trial| Coordinates { trial, values: values.clone(), name: "the given distributions" }).collect())
 }
 
 /// Returns the probability of values below each of `values`, plus half of that of the value itself; `None` if they do
@@ -122,14 +125,16 @@ fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f6
 
 /// Returns the probabilities of values below `x`, and of values up to `x`.
 fn probabilities(distribution: &Distribution, x: f64) -> (f64, f64) {
-    let search = |(mut low, mut high): (f64, f64), is_below: &dyn Fn(f64) -> bool| {
-        for _ in 0..HALVINGS {
-            let middle = low + (high - low) / 2.0;
-            if is_below(distribution.quantile(middle)) { low = middle } else { high = middle }
-        }
-        low + (high - low) / 2.0
-    };
-    let low = search((SMALLEST_U, LARGEST_U), &|quantile| quantile < x);
+    let low = search(SMALLEST_U, LARGEST_U, |u| distribution.quantile(u) < x);
     let is_step = low + STEP < LARGEST_U && distribution.quantile(low + STEP) <= x;
-    (low, if is_step { search((low, LARGEST_U), &|quantile| quantile <= x) } else { low })
+    (low, if is_step { search(low, LARGEST_U, |u| distribution.quantile(u) <= x) } else { low })
+}
+
+/// Returns the probability up to which `is_below` holds.
+fn search(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = low + (high - low) / 2.0;
+        if is_below(middle) { low = middle } else { high = middle }
+    }
+    low + (high - low) / 2.0
 }

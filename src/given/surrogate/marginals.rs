@@ -1,6 +1,6 @@
 //! Influences of the rows on indices through the distributions of the inputs, if these are those of the columns.
 //!
-//! The polynomials of a column are orthonormal in its own distribution, so that the variances of an expansion are those
+//! The polynomials of a column are orthonormal in its distribution, so that the variances of an expansion are those
 //! under the distributions of the table. Other rows would give others. With g = sum b_a phi_a minus its constant, V_u =
 //! E g_u^2 the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by
 //! the n-th part of
@@ -11,59 +11,32 @@
 //! the derivative of V_u by the distribution of each input (von Mises 1947). Both conditional means consist of terms
 //! that differ only in the degree of one input.
 
-use std::collections::BTreeMap;
-
 use super::contributions::{Contributions, To};
-use crate::surrogate::basis::Term;
+use crate::surrogate::extrapolation::groups;
 use crate::surrogate::fit::Expansion;
+use crate::surrogate::gram::add_scaled;
 use crate::surrogate::net::Net;
-
-/// The terms of an expansion that differ only in the degree of one input.
-struct Alike {
-    /// The other inputs of the terms, with their degrees.
-    rest: Term,
-    /// The coefficient of the term without the input; 0 for the constant.
-    without: f64,
-    /// The degrees of the input and the coefficients.
-    degrees: Vec<(usize, f64)>,
-}
-
-fn alike(expansion: &Expansion) -> BTreeMap<(usize, Term), Alike> {
-    let pairs = || expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty());
-    let known: BTreeMap<&Term, f64> = pairs().map(|(term, b)| (term, *b)).collect();
-    let mut groups: BTreeMap<(usize, Term), Alike> = BTreeMap::new();
-    for (term, &b) in pairs() {
-        for (place, &(input, degree)) in term.iter().enumerate() {
-            let mut rest = term.clone();
-            rest.remove(place);
-            let without = known.get(&rest).copied().unwrap_or(0.0);
-            let group = groups.entry((input, rest.clone())).or_insert(Alike { rest, without, degrees: Vec::new() });
-            group.degrees.push((degree, b));
-        }
-    }
-    groups
-}
 
 /// Adds these influences of the rows of a fold to those of its contributions.
 pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contributions) {
     let mut values = Vec::new();
-    for ((input, _), group) in &alike(expansion) {
+    for ((input, others), group) in groups(expansion) {
         let mut sums = vec![0.0; net.points()];
-        for &(degree, b) in &group.degrees {
-            net.fill(&vec![(*input, degree)], 0, &mut values);
-            sums.iter_mut().zip(&values).for_each(|(sum, p)| *sum += b * p);
+        for &(degree, b) in &group.coefficients {
+            net.fill(&vec![(input, degree)], 0, &mut values);
+            add_scaled(&mut sums, b, &values);
         }
-        let variance: f64 = group.degrees.iter().map(|(_, b)| b * b).sum();
+        let variance: f64 = group.coefficients.iter().map(|(_, b)| b * b).sum();
         let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
-        let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.without * h).collect();
+        let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.offset * h).collect();
         let both: Vec<f64> = squares.iter().zip(&products).map(|(a, b)| a + b).collect();
         contributions.to(To::Variance).move_by(&both);
-        contributions.to(To::Total(*input)).move_by(&squares);
-        for (other, _) in &group.rest {
+        contributions.to(To::Total(input)).move_by(&squares);
+        for (other, _) in &others {
             contributions.to(To::Total(*other)).move_by(&both);
         }
-        match group.rest[..] {
-            [] => contributions.to(To::FirstOrder(*input)).move_by(&squares),
+        match others[..] {
+            [] => contributions.to(To::FirstOrder(input)).move_by(&squares),
             [(other, _)] => contributions.to(To::FirstOrder(other)).move_by(&products),
             _ => {}
         }

@@ -18,11 +18,10 @@ use thiserror::Error;
 
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
-use crate::correction::Effects;
-use crate::correction::NamedTerm;
+use crate::correction::{Effects, NamedTerm};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
-use crate::surrogate::beyond::Beyond;
+use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, leading_terms};
@@ -138,10 +137,7 @@ pub fn surrogate_indices(
         return Err(SurrogateRefusal::Dependent { inputs: dependent.clone() });
     }
     let rows = used_rows(indices.rows, inputs.len());
-    let chosen = |column: &Column| -> Column {
-        Column { name: column.name.clone(), values: rows.iter().flatten().map(|&row| column.values[row]).collect() }
-    };
-    let inputs: Vec<Column> = inputs.iter().map(chosen).collect();
+    let inputs: Vec<Column> = inputs.iter().map(|input| at_rows(input, &rows)).collect();
     let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let coordinates = match distributions {
         Some(list) if list.len() != inputs.len() => {
@@ -152,15 +148,19 @@ pub fn surrogate_indices(
     };
     let folds: Vec<usize> = rows.iter().map(Vec::len).collect();
     let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-    let job =
-        Job { names: &names, coordinates: &coordinates, folds: &folds, own_distributions: distributions.is_none() };
-    let of_output = |output: &Column| Ok(job.output(&centred(&chosen(output).values)?));
+    let job = Job { names: &names, coordinates: &coordinates, folds: &folds, uses_columns: distributions.is_none() };
+    let outputs = outputs.iter().map(|output| Ok(job.output(&centred(&at_rows(output, &rows).values)?)));
     Ok(Surrogates {
         rows: folds.iter().sum(),
         folds: FOLDS,
         given_distributions: distributions.is_some(),
-        outputs: outputs.iter().map(of_output).collect(),
+        outputs: outputs.collect(),
     })
+}
+
+fn at_rows(column: &Column, folds: &[Vec<usize>]) -> Column {
+    let values = folds.iter().flatten().map(|&row| column.values[row]).collect();
+    Column { name: column.name.clone(), values }
 }
 
 /// Returns the indices of the rows of every fold, each in rising order. They are assigned at random, but always in the
@@ -169,7 +169,9 @@ fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
     let most = MAX_ROWS.min(MAX_VALUES / (inputs * Caps::degree_of(inputs))).max(super::MIN_ROWS);
     let all = drawn_rows(rows, most, 0);
     let mut folds = vec![Vec::new(); FOLDS];
-    all.into_iter().enumerate().for_each(|(place, row)| folds[place % FOLDS].push(row));
+    for (place, row) in all.into_iter().enumerate() {
+        folds[place % FOLDS].push(row);
+    }
     folds.iter_mut().for_each(|fold| fold.sort_unstable());
     folds
 }
@@ -183,32 +185,28 @@ struct Job<'a> {
     /// Rows of every fold.
     folds: &'a [usize],
     /// Whether the distributions are those of the columns.
-    own_distributions: bool,
+    uses_columns: bool,
 }
 
 /// Every fold, corrected by an expansion of the others.
 struct Fitted {
     folds: Vec<FoldSums>,
     expansions: Vec<Expansion>,
-    beyond: Beyond,
+    extrapolation: ExtrapolationError,
     polynomials_of: &'static str,
 }
 
 impl Fitted {
-    /// Returns the mean square residual of the expansions.
-    fn left_square(&self) -> f64 {
-        left_square(&self.folds)
-    }
-
-    /// Returns the same plus the error that no rows show.
+    /// Returns the mean square residual plus the error that no rows show.
     fn unknown(&self) -> f64 {
-        self.left_square() + self.beyond.variance
+        left_square(&self.folds) + self.extrapolation.variance
     }
 }
 
+/// Returns the mean square residual of expansions.
 fn left_square(folds: &[FoldSums]) -> f64 {
     let rows: usize = folds.iter().map(|fold| fold.rows).sum();
-    folds.iter().map(|fold| fold.left.1).sum::<f64>() / rows as f64
+    folds.iter().map(|fold| fold.residual_square).sum::<f64>() / rows as f64
 }
 
 impl Job<'_> {
@@ -228,33 +226,34 @@ impl Job<'_> {
 
     fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {
         let caps = Caps::new(&coordinates.trial.families, coordinates.trial.hermite_degree);
-        let columns: Vec<Vec<Vec<f64>>> = coordinates
-            .values
-            .par_iter()
-            .zip(&coordinates.trial.families)
-            .map(|(values, family)| polynomials(family, values, caps.degree))
-            .collect();
-        let mut start = 0;
-        let net = |count: &usize| {
-            let range = start..start + count;
-            start += count;
-            let of_input = |list: &Vec<Vec<f64>>| list.iter().map(|column| column[range.clone()].to_vec()).collect();
-            Net::of_rows(columns.iter().map(of_input).collect(), z[range.clone()].to_vec())
-        };
-        let nets: Vec<Net> = self.folds.iter().map(net).collect();
-        drop(columns);
+        let nets = self.nets(coordinates, caps, z);
         let expansions = cross_fitted(&nets, caps);
-        let of_fold = |(net, expansion): (&Net, &Expansion)| {
+        let folds = nets.par_iter().zip(&expansions).map(|(net, expansion)| {
             let mut contributions = Contributions::new(net, expansion);
-            if self.own_distributions {
+            if self.uses_columns {
                 marginals::add(net, expansion, &mut contributions);
             }
             contributions.in_parts()
-        };
-        let folds: Vec<FoldSums> = nets.par_iter().zip(&expansions).map(of_fold).collect();
+        });
+        let folds: Vec<FoldSums> = folds.collect();
         let rows = self.folds.iter().sum::<usize>() as u64;
         let effects = Effects { swaps: (0..caps.families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
-        let beyond = Beyond::new(&expansions, caps.families, rows, left_square(&folds), &effects);
-        Fitted { folds, expansions, beyond, polynomials_of: coordinates.name }
+        let extrapolation = ExtrapolationError::new(&expansions, caps.families, rows, left_square(&folds), &effects);
+        Fitted { folds, expansions, extrapolation, polynomials_of: coordinates.name }
+    }
+
+    /// Returns every fold with its rows of the outputs `z`.
+    fn nets(&self, coordinates: &Coordinates, caps: Caps<'_>, z: &[f64]) -> Vec<Net> {
+        let inputs = coordinates.values.par_iter().zip(caps.families);
+        let columns: Vec<Vec<Vec<f64>>> =
+            inputs.map(|(values, family)| polynomials(family, values, caps.degree)).collect();
+        let (mut nets, mut start) = (Vec::new(), 0);
+        for count in self.folds {
+            let rows = start..start + count;
+            start = rows.end;
+            let of_fold = columns.iter().map(|list| list.iter().map(|column| column[rows.clone()].to_vec()).collect());
+            nets.push(Net::of_rows(of_fold.collect(), z[rows.clone()].to_vec()));
+        }
+        nets
     }
 }

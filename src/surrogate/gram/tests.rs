@@ -11,7 +11,7 @@ fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {
 
 fn gram(columns: &[Vec<f64>]) -> Square {
     let mut gram = Square::zeros(columns.len());
-    gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    gram.add_products(columns);
     gram
 }
 
@@ -38,8 +38,8 @@ fn the_path_finds_the_columns_that_make_the_outputs() {
     let path = Path::new(&gram, vec![right.clone()], 4);
     assert_eq!(path.chosen, [0, 7, 2, 4]);
     let coefficients = path.coefficients(0, 4);
-    for (found, exact) in coefficients.iter().zip([0.0, 3.0, -0.5, 0.01]) {
-        assert!((found - exact).abs() < 1e-12, "{coefficients:?}");
+    for (solution, exact) in coefficients.iter().zip([0.0, 3.0, -0.5, 0.01]) {
+        assert!((solution - exact).abs() < 1e-12, "{coefficients:?}");
     }
     let errors = path.held_out(&gram, &[right], &[product(&y, &y)]).remove(0);
     assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[3].abs() < 1e-10, "{errors:?}");
@@ -62,8 +62,8 @@ fn outputs_choose_together_and_keep_their_own_coefficients() {
     let path = Path::new(&gram, right.clone(), 3);
     assert_eq!(path.chosen, [0, 7, 2]);
     for (output, exact) in [[0.0, 3.0, 0.0], [0.0, -1.0, 2.0]].iter().enumerate() {
-        let found = path.coefficients(output, 3);
-        assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        let solution = path.coefficients(output, 3);
+        assert!(solution.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{solution:?}");
     }
     let squares: Vec<f64> = outputs.iter().map(|y| product(y, y)).collect();
     let errors = path.held_out(&gram, &right, &squares);
@@ -85,7 +85,7 @@ fn least_squares_are_solved() {
     let exact = [1.0, -2.0, 0.0, 4.0, 0.5];
     let y: Vec<f64> = (0..40).map(|r| (0..5).map(|c| exact[c] * columns[c][r]).sum()).collect();
     let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
-    for (found, exact) in solve(&lower_factor(&gram(&columns)), &right).iter().zip(exact) {
-        assert!((found - exact).abs() < 1e-9);
+    for (solution, exact) in solve(&lower_factor(&gram(&columns)), &right).iter().zip(exact) {
+        assert!((solution - exact).abs() < 1e-9);
     }
 }

@@ -7,11 +7,11 @@ fn knot(u: f64, is_step: bool) -> Knot {
 
 #[test]
 fn functions_are_orthonormal_and_hold_steps_and_hinges() {
-    let own = Knotted::new(&Family::Legendre, &[knot(0.3, true), knot(0.8, false)], 10);
-    assert_eq!(own.degree(), 10);
+    let knotted = Knotted::new(&Family::Legendre, &[knot(0.3, true), knot(0.8, false)], 10);
+    assert_eq!(knotted.degree(), 10);
     let n = 20_000;
     let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
-    let columns = own.columns(polynomials(&Family::Legendre, &u, 10), 10);
+    let columns = knotted.columns(polynomials(&Family::Legendre, &u, 10), 10);
     let mean = |a: &[f64], b: &[f64]| product(a, b) / f64::from(n);
     for (j, a) in columns.iter().enumerate() {
         assert!(a.iter().sum::<f64>().abs() / f64::from(n) < 1e-3, "{j}");
@@ -32,13 +32,13 @@ fn functions_are_orthonormal_and_hold_steps_and_hinges() {
 fn a_small_step_next_to_a_hinge_shifts_the_kink() {
     // u - .8| minus its part in 1 and u, for a step and a hinge at .79: 2 (u - .8) beyond .8.
     let knot = Knot { u: 0.79, width: 0.02, is_step: false };
-    let own = Knotted::new(&Family::Legendre, &[knot], 4);
+    let knotted = Knotted::new(&Family::Legendre, &[knot], 4);
     let root = 12.0f64.sqrt();
     // x = sqrt(12)(u - 1/2): the hinge has the slope 2/sqrt(12) in it, and the step -2 (.8 - .79).
     let [slope, step] = [2.0 / root, -0.02];
     // Functions 2 and 3 are the hinge and the step, each minus its part in the earlier ones.
-    let third = step / own.rows[3][3];
-    let second = (slope - third * own.rows[3][2]) / own.rows[2][2];
-    let moved = own.kinks(&[(2, second), (3, third)]);
-    assert!((moved[0].u - 0.8).abs() < 1e-9 && (moved[0].width - 0.01).abs() < 1e-9, "{moved:?}");
+    let third = step / knotted.rows[3][3];
+    let second = (slope - third * knotted.rows[3][2]) / knotted.rows[2][2];
+    let moved = knotted.placed_kink(0, &[(2, second), (3, third)]);
+    assert!((moved.u - 0.8).abs() < 1e-9 && (moved.width - 0.01).abs() < 1e-9, "{moved:?}");
 }

@@ -16,7 +16,7 @@ fn kernels_are_those_of_the_exponential() {
 #[test]
 fn classes_that_are_points_are_as_far_as_can_be() {
     let values: Vec<f64> = (0..800).map(f64::from).collect();
-    let classes = ((0..800).collect(), 800);
+    let classes = Partition { labels: (0..800).collect(), count: 800 };
     assert_eq!(OutputDistribution::new(&values).delta(&classes, &[1.0; 800], 1.0), 1.0);
 }
 

@@ -9,7 +9,7 @@ proptest! {
     ) {
         let z: Vec<f64> = rows.iter().map(|row| f64::from(row.0)).collect();
         let labels: Vec<usize> = rows.iter().map(|row| row.1).collect();
-        let got = distances(&Order::from_values(&z), &(labels.clone(), 4));
+        let got = distances(&Order::from_values(&z), &Partition { labels: labels.clone(), count: 4 });
         let below = |value: f64, class: Option<usize>| {
             let of = |k: &usize| class.is_none_or(|class| labels[*k] == class);
             (0..z.len()).filter(of).filter(|&k| z[k] <= value).count() as f64 / (0..z.len()).filter(of).count() as f64

@@ -1,5 +1,5 @@
 use super::*;
-use crate::surrogate::basis::{Family, polynomials};
+use crate::surrogate::basis::{Family, Term, polynomials};
 
 const X: [[f64; 8]; 2] = [[0.1, 0.9, 0.35, 0.7, 0.2, 0.55, 0.8, 0.05], [-1.0, 0.5, 0.0, 2.0, 1.5, -0.5, 0.25, 0.75]];
 
@@ -33,16 +33,16 @@ fn influences_are_derivatives_by_the_weights_of_rows() {
     let mut contributions = Contributions::new(&net, &expansion);
     add(&net, &expansion, &mut contributions);
     let all = [To::Variance, To::FirstOrder(0), To::FirstOrder(1), To::Total(0), To::Total(1)];
-    let found = all.map(|to| contributions.to(to).moves().to_vec());
+    let influences = all.map(|to| contributions.to(to).moves.clone());
     for row in 0..8 {
         let step = 1e-4;
         let moved = |step: f64| -> Vec<f64> {
             (0..8).map(|i| (1.0 - step) / 8.0 + if i == row { step } else { 0.0 }).collect()
         };
         let (up, down) = (variances(&moved(step)), variances(&moved(-step)));
-        for (number, found) in found.iter().enumerate() {
+        for (number, influences) in influences.iter().enumerate() {
             let derivative = (up[number] - down[number]) / (2.0 * step);
-            assert!((found[row] - derivative).abs() < 1e-6, "{number} {row}: {} {derivative}", found[row]);
+            assert!((influences[row] - derivative).abs() < 1e-6, "{number} {row}: {} {derivative}", influences[row]);
         }
     }
 }

@@ -8,7 +8,7 @@
 //! over all nets together.
 
 use super::basis::{Caps, Family, Term};
-use super::net::Net;
+use super::net::{Net, Spread};
 
 /// Allowed range of the mean square of a term over the rows of a net. If half as many rows as expected have a level,
 /// the mean square of its polynomial is a half.
@@ -19,51 +19,45 @@ const MAX_MEAN_SQUARE: f64 = 2.0;
 const ROWS: usize = 2000;
 
 /// The candidates that the rows of some nets can determine.
-pub struct Carried<'a> {
+pub struct IdentifiableTerms<'a> {
     nets: &'a [Net],
-    caps: Caps<'a>,
+    /// The other limits on the terms.
+    pub(super) caps: Caps<'a>,
     /// For each factor, the highest degree up to which the rows of every net can determine all polynomials.
     degrees: Vec<usize>,
     /// For each net, the rows by which products are judged.
     rows: Vec<Vec<(usize, usize)>>,
 }
 
-impl<'a> Carried<'a> {
+impl<'a> IdentifiableTerms<'a> {
     /// Computes the limits from the rows of `nets`.
     pub fn new(nets: &'a [Net], caps: Caps<'a>) -> Self {
-        let of_factor = |(factor, family): (usize, &Family)| {
-            let spreads: Vec<_> = nets.iter().map(|net| net.spreads(factor)).collect();
-            match family.smooth() {
-                Family::Own(own) if own.has_levels() => {
-                    spreads.iter().map(|net| carried_degrees(net)).min().unwrap_or(0)
+        let mut degrees = Vec::with_capacity(caps.families.len());
+        for (factor, family) in caps.families.iter().enumerate() {
+            let spreads: Vec<Vec<Spread>> = nets.iter().map(|net| net.spreads(factor)).collect();
+            degrees.push(match family.smooth() {
+                Family::Orthogonal(polynomials) if polynomials.has_levels() => {
+                    spreads.iter().map(|net| identifiable_degrees(net)).min().unwrap_or(0)
                 }
                 // The behaviour of polynomials of high degree in thin tails is a part of their error.
-                Family::Own(_) if carried_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
+                Family::Orthogonal(_) if identifiable_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
                 _ => usize::MAX,
-            }
-        };
-        let degrees = caps.families.iter().enumerate().map(of_factor).collect();
+            });
+        }
         let rows = nets.iter().map(|net| net.spaced_rows(ROWS)).collect();
         Self { nets, caps, degrees, rows }
     }
 
-    /// Returns the other limits on the terms.
-    pub fn caps(&self) -> Caps<'a> {
-        self.caps
-    }
-
     /// Returns those of `terms` that the rows can determine.
     pub fn retain(&self, terms: Vec<Term>) -> Vec<Term> {
-        terms.into_iter().filter(|term| self.carries(term)).collect()
+        terms.into_iter().filter(|term| self.is_identifiable(term)).collect()
     }
 
-    fn carries(&self, term: &Term) -> bool {
-        let has_levels =
-            |(factor, _): &(usize, usize)| matches!(&self.caps.families[*factor], Family::Own(own) if own.has_levels());
+    fn is_identifiable(&self, term: &Term) -> bool {
         if !term.iter().all(|(factor, degree)| *degree <= self.degrees[*factor]) {
             return false;
         }
-        if term.len() < 2 || !term.iter().any(has_levels) {
+        if term.len() < 2 || !term.iter().any(|(factor, _)| has_levels(&self.caps.families[*factor])) {
             return true;
         }
         self.nets.iter().zip(&self.rows).all(|(net, rows)| {
@@ -73,20 +67,28 @@ impl<'a> Carried<'a> {
     }
 }
 
-/// Returns how many of the first degrees have a mean square close to 1, given the mean squares of every degree and the
-/// squares of the means over some rows: 0 for a constant column.
-fn carried_degrees(spreads: &[(f64, f64)]) -> usize {
+fn has_levels(family: &Family) -> bool {
+    matches!(family, Family::Orthogonal(polynomials) if polynomials.has_levels())
+}
+
+/// Returns how many of the first degrees have a mean square close to 1, given the spread of every degree over some
+/// rows: 0 for a constant column.
+fn identifiable_degrees(spreads: &[Spread]) -> usize {
     spreads
         .iter()
-        .take_while(|(mean, square)| square - mean * mean >= MIN_MEAN_SQUARE && *square <= MAX_MEAN_SQUARE)
+        .take_while(|of| of.square - of.mean * of.mean >= MIN_MEAN_SQUARE && of.square <= MAX_MEAN_SQUARE)
         .count()
 }
 
-/// Returns the mean and mean square of the polynomial of degree 1 over all nets.
-fn mean_of_first(spreads: &[Vec<(f64, f64)>]) -> (f64, f64) {
-    let first = spreads.iter().filter_map(|net| net.first());
-    let (mean, square) = first.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
-    (mean / spreads.len() as f64, square / spreads.len() as f64)
+/// Returns the spread of the polynomial of degree 1 over all nets.
+fn mean_of_first(spreads: &[Vec<Spread>]) -> Spread {
+    let mut sum = Spread::default();
+    for first in spreads.iter().filter_map(|net| net.first()) {
+        sum.mean += first.mean;
+        sum.square += first.square;
+    }
+    let nets = spreads.len() as f64;
+    Spread { mean: sum.mean / nets, square: sum.square / nets }
 }
 
 #[cfg(test)]

@@ -12,9 +12,9 @@ fn polynomials_are_orthonormal_under_their_distribution() {
     let n = 40_000;
     let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
     for distribution in cases {
-        let own = OwnPolynomials::new(&distribution, 8).unwrap();
-        assert_eq!(own.degree(), 8);
-        let columns = own.columns(&u);
+        let family = OrthogonalPolynomials::new(&distribution, 8).unwrap();
+        assert_eq!(family.degree(), 8);
+        let columns = family.columns(&u);
         for (j, a) in columns.iter().enumerate() {
             assert!((a.iter().sum::<f64>() / f64::from(n)).abs() < 1e-3, "{distribution:?} {j}");
             for (k, b) in columns.iter().enumerate() {
@@ -29,8 +29,8 @@ fn polynomials_are_orthonormal_under_their_distribution() {
 
 #[test]
 fn polynomials_of_uniform_factors_are_legendres() {
-    let own = OwnPolynomials::new(&Distribution::uniform(2.0, 5.0).unwrap(), 14).unwrap();
-    for (k, (a, b)) in own.recurrence.coefficients.iter().enumerate() {
+    let family = OrthogonalPolynomials::new(&Distribution::uniform(2.0, 5.0).unwrap(), 14).unwrap();
+    for (k, (a, b)) in family.recurrence.coefficients.iter().enumerate() {
         let n = k as f64 + 1.0;
         assert!(a.abs() < 1e-12 && (b - n / (4.0 * n * n - 1.0).sqrt()).abs() < 1e-12, "{k} {a} {b}");
     }
@@ -39,13 +39,13 @@ fn polynomials_of_uniform_factors_are_legendres() {
 #[test]
 fn steps_of_quantiles_are_met() {
     let gap = Distribution::histogram(&[0.0, 1.0, 9.0, 10.0], &[0.97, 0.0, 0.03]).unwrap();
-    let own = OwnPolynomials::new(&gap, 8).unwrap();
+    let family = OrthogonalPolynomials::new(&gap, 8).unwrap();
     let n = 100_000;
     let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
-    for column in own.columns(&u) {
+    for column in family.columns(&u) {
         assert!((product(&column, &column) / f64::from(n) - 1.0).abs() < 1e-4);
     }
-    let counts = OwnPolynomials::new(&Distribution::poisson(0.5).unwrap(), 8).unwrap();
+    let counts = OrthogonalPolynomials::new(&Distribution::poisson(0.5).unwrap(), 8).unwrap();
     // Those of Charlier: a_0 = mean and b_1 = sd, moved and scaled.
     let Recurrence { middle, half, coefficients } = &counts.recurrence;
     assert!((middle + half * coefficients[0].0 - 0.5).abs() < 1e-11);
@@ -55,10 +55,10 @@ fn steps_of_quantiles_are_met() {
 #[test]
 fn as_many_levels_as_degrees() {
     let three = Distribution::discrete(&[1.0, 2.0, 7.0], Some(&[0.2, 0.5, 0.3])).unwrap();
-    let own = OwnPolynomials::new(&three, 10).unwrap();
-    assert_eq!(own.degree(), 2);
-    let columns = own.columns(&[0.1, 0.5, 0.9]);
+    let family = OrthogonalPolynomials::new(&three, 10).unwrap();
+    assert_eq!(family.degree(), 2);
+    let columns = family.columns(&[0.1, 0.5, 0.9]);
     let mean = |a: &[f64], b: &[f64]| 0.2 * a[0] * b[0] + 0.5 * a[1] * b[1] + 0.3 * a[2] * b[2];
     assert!((mean(&columns[0], &columns[0]) - 1.0).abs() < 1e-12 && mean(&columns[0], &columns[1]).abs() < 1e-12);
-    assert_eq!(OwnPolynomials::new(&Distribution::normal(0.0, 1.0).unwrap(), 5), None);
+    assert_eq!(OrthogonalPolynomials::new(&Distribution::normal(0.0, 1.0).unwrap(), 5), None);
 }

@@ -21,9 +21,10 @@ fn a_level_without_rows_gives_no_polynomial() {
     let families = [boolean(0.001), boolean(0.5), Family::Legendre];
     let rows = [even(64), even(64), even(64)];
     let nets = [net(&families, &rows)];
-    let carried = Carried::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
-    assert!(!carried.carries(&vec![(0, 1)]) && !carried.carries(&vec![(0, 1), (2, 1)]));
-    assert!(carried.carries(&vec![(1, 1)]) && carried.carries(&vec![(2, 6)]));
+    let identifiable =
+        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+    assert!(!identifiable.is_identifiable(&vec![(0, 1)]) && !identifiable.is_identifiable(&vec![(0, 1), (2, 1)]));
+    assert!(identifiable.is_identifiable(&vec![(1, 1)]) && identifiable.is_identifiable(&vec![(2, 6)]));
 }
 
 #[test]
@@ -33,8 +34,8 @@ fn one_net_without_the_level_is_enough() {
     let without = net(&families, &[even(100).into_iter().map(|u| 0.9 * u).collect()]);
     let caps = Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families };
     let nets = [with, without];
-    assert!(Carried::new(&nets[..1], caps).carries(&vec![(0, 1)]));
-    assert!(!Carried::new(&nets, caps).carries(&vec![(0, 1)]));
+    assert!(IdentifiableTerms::new(&nets[..1], caps).is_identifiable(&vec![(0, 1)]));
+    assert!(!IdentifiableTerms::new(&nets, caps).is_identifiable(&vec![(0, 1)]));
 }
 
 #[test]
@@ -43,9 +44,10 @@ fn two_rare_levels_that_never_meet_do_not_interact() {
     let families = [boolean(0.02), boolean(0.02)];
     let turned: Vec<f64> = even(100).into_iter().map(|u| (u + 0.5) % 1.0).collect();
     let nets = [net(&families, &[even(100), turned])];
-    let carried = Carried::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
-    assert!(carried.carries(&vec![(0, 1)]) && carried.carries(&vec![(1, 1)]));
-    assert!(!carried.carries(&vec![(0, 1), (1, 1)]));
+    let identifiable =
+        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+    assert!(identifiable.is_identifiable(&vec![(0, 1)]) && identifiable.is_identifiable(&vec![(1, 1)]));
+    assert!(!identifiable.is_identifiable(&vec![(0, 1), (1, 1)]));
 }
 
 #[test]
@@ -53,5 +55,5 @@ fn all_terms_of_uniform_and_normal_factors_stay() {
     let families = [Family::Legendre, Family::Hermite];
     let nets = [net(&families, &[even(8), even(8)])];
     let caps = Caps { terms: 50, degree: 6, hermite_degree: 4, families: &families };
-    assert_eq!(Carried::new(&nets, caps).retain(first_terms(caps, 50)), first_terms(caps, 50));
+    assert_eq!(IdentifiableTerms::new(&nets, caps).retain(first_terms(caps, 50)), first_terms(caps, 50));
 }

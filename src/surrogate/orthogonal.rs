@@ -1,6 +1,7 @@
-//! Polynomials orthonormal under a factor's own distribution, in its values: a model that is smooth in the values need
+//! Polynomials orthonormal under the distribution of a factor, in its values: a model that is smooth in the values need
 //! not be smooth in the quantiles, and a factor with few levels needs few polynomials.
 
+use super::basis::recurred;
 use crate::space::Distribution;
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
@@ -47,16 +48,13 @@ impl Recurrence {
             return None;
         }
         let nodes: Vec<(f64, f64)> = nodes.iter().map(|(x, weight)| ((x - middle) / half, *weight)).collect();
-        let sum = |values: &[f64], of: &dyn Fn(f64, f64) -> f64| -> f64 {
-            nodes.iter().zip(values).map(|((x, weight), p)| weight * of(*x, *p)).sum()
-        };
         let (mut before, mut now, mut length) = (vec![0.0; nodes.len()], vec![1.0; nodes.len()], 0.0);
         let mut coefficients = Vec::with_capacity(degree);
         for _ in 0..degree {
-            let a = sum(&now, &|x, p| x * p * p);
+            let a: f64 = nodes.iter().zip(&now).map(|((x, weight), p)| weight * (x * p * p)).sum();
             let rest = nodes.iter().zip(now.iter().zip(&before)).map(|((x, _), (p, q))| (x - a) * p - length * q);
             let rest: Vec<f64> = rest.collect();
-            length = sum(&rest, &|_, p| p * p).sqrt();
+            length = nodes.iter().zip(&rest).map(|((_, weight), p)| weight * (p * p)).sum::<f64>().sqrt();
             if length < NOTHING {
                 break;
             }
@@ -74,27 +72,22 @@ impl Recurrence {
     /// Returns the polynomials of degree 1, 2, ... and at most `degree` at the values `x`, a column for each.
     pub fn columns(&self, x: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let x: Vec<f64> = x.iter().map(|x| (x - self.middle) / self.half).collect();
-        let (mut before, mut now, mut length) = (vec![0.0; x.len()], vec![1.0; x.len()], 0.0);
-        let mut columns = Vec::with_capacity(self.degree().min(degree));
-        for &(a, next_length) in self.coefficients.iter().take(degree) {
-            let next = |(x, (p, q)): (&f64, (&f64, &f64))| ((x - a) * p - length * q) / next_length;
-            let next: Vec<f64> = x.iter().zip(now.iter().zip(&before)).map(next).collect();
-            before = std::mem::replace(&mut now, next);
-            columns.push(now.clone());
-            length = next_length;
-        }
-        columns
+        recurred(&x, self.degree().min(degree), |k, x, p, q| {
+            let (a, next_length) = self.coefficients[k as usize];
+            let length = if k == 0.0 { 0.0 } else { self.coefficients[k as usize - 1].1 };
+            ((x - a) * p - length * q) / next_length
+        })
     }
 }
 
 /// The polynomials of a distribution.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OwnPolynomials {
+pub struct OrthogonalPolynomials {
     distribution: Distribution,
     recurrence: Recurrence,
 }
 
-impl OwnPolynomials {
+impl OrthogonalPolynomials {
     /// Computes polynomials up to `degree`, or fewer for a distribution with few levels. `None` without a bounded
     /// support of positive width, or if unknown steps spoil the standard deviation by quadrature.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
@@ -144,15 +137,15 @@ impl OwnPolynomials {
 
 /// Returns the values of a distribution with few levels and their probabilities: its quantile's steps, by bisection.
 fn of_levels(distribution: &Distribution, levels: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let step = |[(_, mut low), (value, mut high)]: [(f64, f64); 2]| {
+    let mut steps = vec![0.0];
+    for pair in levels.windows(2) {
+        let ((_, mut low), (value, mut high)) = (pair[0], pair[1]);
         for _ in 0..60 {
             let middle = (low + high) / 2.0;
             if distribution.quantile(middle) < value { low = middle } else { high = middle }
         }
-        high
-    };
-    let mut steps = vec![0.0];
-    steps.extend(levels.windows(2).map(|pair| step([pair[0], pair[1]])));
+        steps.push(high);
+    }
     steps.push(1.0);
     levels.iter().zip(steps.windows(2)).map(|((value, _), pair)| (*value, pair[1] - pair[0])).collect()
 }
@@ -174,11 +167,10 @@ fn of_quantiles(distribution: &Distribution) -> Vec<(f64, f64)> {
 /// Iterates over nodes and weights of the rule on each of some parts of `low` to `high`.
 pub(super) fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let width = (high - low) / f64::from(PARTS);
-    let of_part = move |part: u32| {
+    (0..PARTS).flat_map(move |part| {
         RULE.into_iter()
             .map(move |(node, weight)| (low + width * (f64::from(part) + (1.0 + node) / 2.0), weight * width / 2.0))
-    };
-    (0..PARTS).flat_map(of_part)
+    })
 }
 
 #[cfg(test)]

@@ -38,9 +38,8 @@ fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         let alone = surrogate_estimates(&design, &families, &layout, of, None).unwrap();
         let together = together.as_ref().unwrap();
         assert!(together.explained > 1.0 - 1e-6, "{k}: {} {}", together.explained, alone.explained);
-        for (a, b) in alone.effects.iter().zip(&together.effects) {
-            let (a, b) = (a.total.estimate, b.total.estimate);
-            assert!((a - b).abs() < 1e-4, "{k}: {a} {b}");
+        for (a, b) in alone.total.iter().zip(&together.total) {
+            assert!((a.estimate - b.estimate).abs() < 1e-4, "{k}: {} {}", a.estimate, b.estimate);
         }
     }
     // Up to 32 outputs are fitted one by one, to the same bits.
@@ -57,7 +56,7 @@ fn steps_and_kinks_are_located() {
         surrogate_estimates(design, &families, &layout, &kept.iter().collect::<Vec<_>>(), chosen).unwrap()
     };
     let rough = kept(&design, |u| if u[0] > 0.37 { 1.0 + u[1] } else { 0.0 } + 4.0 * (u[2] - 0.6).abs());
-    let found = estimates(&design, &rough, None);
+    let corrected = estimates(&design, &rough, None);
     // With p = .63: a product of independent parts, and the moments of 4 |u - .6|.
     let p: f64 = 0.63;
     let parts = [p * (1.0 - p) * 2.25, p * p / 12.0, 16.0 * ((0.216 + 0.064) / 3.0 - 0.26 * 0.26)];
@@ -66,10 +65,11 @@ fn steps_and_kinks_are_located() {
     for (factor, part) in parts.iter().enumerate() {
         let total = part + if factor < 2 { both } else { 0.0 };
         let error = |of: &EstimateWithInfluences, exact: f64| (of.estimate - exact / variance).abs();
-        let errors = [error(&found.effects[factor].first_order, *part), error(&found.effects[factor].total, total)];
+        let errors =
+            [error(&corrected.effects[factor].first_order, *part), error(&corrected.effects[factor].total, total)];
         assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
     }
-    let chosen = found.chosen.unwrap();
+    let chosen = corrected.chosen.unwrap();
     let [step, none, kink] = &chosen.knots[..] else { panic!("{:?}", chosen.knots) };
     assert!(step.len() == 1 && step[0].is_step && (step[0].u - 0.37).abs() <= step[0].width, "{step:?}");
     assert!(kink.len() == 1 && !kink[0].is_step && (kink[0].u - 0.6).abs() < 1.0 / 256.0, "{kink:?}");
@@ -79,7 +79,7 @@ fn steps_and_kinks_are_located() {
     let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();
     let of_half = estimates(&half, &first, Some(&chosen));
     assert!(of_half.explained > 0.99, "{}", of_half.explained);
-    // No knots are found where the output is smooth.
+    // There are no knots where the output is smooth.
     let smooth = kept(&design, |u| libm::exp(u[0]) * libm::sin(9.0 * u[1]) + u[2]);
     assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().knots, [] as [Vec<Knot>; 0]);
 }

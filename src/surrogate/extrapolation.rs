@@ -1,0 +1,242 @@
+//! The error of expansions in the tails of their factors, where there are no runs.
+//!
+//! The indices of an expansion are computed exactly, which includes regions where no run shows whether it is right. A
+//! polynomial of high degree in an unbounded variable has most of its variance there. Its departure in the tails from
+//! the tangents at their edges is therefore counted as a part of the error of every number to which it contributes;
+//! less of it if the expansion fits well or its degree is low, since a function close to a polynomial of low degree
+//! continues like one.
+//!
+//! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a knot from
+//! one another counts as if the step were uniform over the width of the knot, of standard deviation width/sqrt(12).
+
+use std::collections::BTreeMap;
+
+use super::basis::{Family, Term, polynomials};
+use super::fit::Expansion;
+use crate::correction::{Effects, is_interaction, touches, within};
+
+/// Width of the panels of the midpoint rule in ln u, and their number, down to 1e-17 of the edge.
+const STEP: f64 = 0.25;
+const PANELS: usize = 160;
+
+/// Relative distance from the edge of the two values of u used for slopes.
+const NEAR: f64 = 1e-5;
+
+/// Distance in u to either side of a knot.
+const KNOT_SIDE: f64 = 1e-9;
+
+/// Multiple of the root mean square residual that counts for every degree of a polynomial, times its departure; limited
+/// to the whole departure. Polynomials that are small at the runs grow this fast beyond them, as those of Chebyshev do.
+/// Measured on sines, exponentials and powers of normal factors.
+const GROWTH: f64 = 3.2;
+
+/// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
+struct Tail {
+    /// Probabilities of the nodes.
+    weights: Vec<f64>,
+    /// The polynomials of degree 1, 2, ... at the nodes.
+    values: Vec<Vec<f64>>,
+    /// Their tangents at the edge, at the nodes.
+    tangents: Vec<Vec<f64>>,
+}
+
+impl Tail {
+    /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
+    fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
+        match family.smooth() {
+            Family::Hermite | Family::Orthogonal(_) => {
+                [false, true].map(|upper| Self::new(family, mass, degree, upper)).into()
+            }
+            Family::Legendre | Family::Column(_) | Family::Knotted(_) => Vec::new(),
+        }
+    }
+
+    /// Returns the lower or the upper one of them.
+    fn new(family: &Family, mass: f64, mut degree: usize, is_upper: bool) -> Self {
+        let nodes: Vec<f64> = (0..PANELS).map(|k| mass * libm::exp(-(STEP * (k as f64 + 0.5)))).collect();
+        let weights = nodes.iter().map(|u| u * STEP).collect();
+        let mut points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
+        if let Family::Knotted(knotted) = family {
+            degree = knotted.degree();
+        }
+        // Hermite polynomials are even or odd, and 1 - u has no digits far out.
+        let is_mirrored = is_upper && *family.smooth() == Family::Hermite;
+        if is_upper && !is_mirrored {
+            points.iter_mut().for_each(|u| *u = 1.0 - *u);
+        }
+        let mut values = polynomials(family.smooth(), &points, degree);
+        if is_mirrored {
+            values.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
+        }
+        let x = values.first().cloned().unwrap_or_default();
+        if let Family::Knotted(knotted) = family {
+            values = knotted.columns(values, degree);
+        }
+        let tangents = values.iter().map(|of| tangent(&x, of)).collect();
+        values.iter_mut().for_each(|of| of.truncate(PANELS));
+        Self { weights, values, tangents }
+    }
+
+    /// Returns the steps and kinks of a factor with functions of `family`.
+    fn knots(family: &Family) -> Vec<Self> {
+        let Family::Knotted(knotted) = family else { return Vec::new() };
+        let sides = knotted.knots.iter().map(|knot| {
+            let [before, after] =
+                [-KNOT_SIDE, KNOT_SIDE].map(|by| polynomials(family, &[knot.u + by], knotted.degree()));
+            Self { weights: vec![knot.width / 12.0f64.sqrt()], values: before, tangents: after }
+        });
+        sides.collect()
+    }
+
+    /// Computes the departure of the polynomial of `group` from its tangent.
+    fn departure(&self, group: &Group) -> Departure {
+        let mut departure = Departure::default();
+        for (node, weight) in self.weights.iter().enumerate() {
+            let (p, q) = (group.value(&self.values, node), group.value(&self.tangents, node));
+            departure.mean += weight * (p - q).abs();
+            departure.square += weight * (p * p - q * q).abs();
+        }
+        departure
+    }
+}
+
+/// Returns the tangent at the edge of a polynomial with the values `of`, at the nodes; `x` is that of degree 1.
+fn tangent(x: &[f64], of: &[f64]) -> Vec<f64> {
+    let [edge, near] = [PANELS, PANELS + 1];
+    let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
+    // The slope is undefined between two levels of a discrete distribution.
+    let slope = if slope.is_finite() { slope } else { 0.0 };
+    x[..PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
+}
+
+/// The departure of a polynomial from its tangents: the mean of the absolute differences, and of those of the squares.
+#[derive(Default)]
+struct Departure {
+    mean: f64,
+    square: f64,
+}
+
+impl Departure {
+    /// Computes the sum over some tails.
+    fn sum(tails: &[Tail], group: &Group) -> Self {
+        let mut sum = Self::default();
+        for tail in tails {
+            let Self { mean, square } = tail.departure(group);
+            sum.mean += mean;
+            sum.square += square;
+        }
+        sum
+    }
+}
+
+/// The errors due to the tails of expansions, of an output scaled to variance 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ExtrapolationError {
+    /// Error of the mean.
+    pub mean: f64,
+    /// Error of the variance.
+    pub variance: f64,
+    /// Error of V S of every swap.
+    pub first_order: Vec<f64>,
+    /// Error of V ST of every swap.
+    pub total: Vec<f64>,
+    /// Error of V S_jk of the pairs of factors.
+    pub pairs: Vec<f64>,
+}
+
+impl ExtrapolationError {
+    /// Computes the errors of the mean of `expansions` in polynomials of `families`, fitted to runs at `points` points
+    /// with a mean square residual of `rest`.
+    pub fn new(expansions: &[Expansion], families: &[Family], points: u64, rest: f64, effects: &Effects) -> Self {
+        let mut all = Self {
+            mean: 0.0,
+            variance: 0.0,
+            first_order: vec![0.0; effects.swaps.len()],
+            total: vec![0.0; effects.swaps.len()],
+            pairs: vec![0.0; effects.pairs.len()],
+        };
+        let mass = 1.0 / points.max(2) as f64;
+        let rest = rest.max(0.0).sqrt();
+        let share = 1.0 / expansions.len() as f64;
+        let groups: Vec<BTreeMap<(usize, Term), Group>> = expansions.iter().map(groups).collect();
+        for (factor, family) in families.iter().enumerate() {
+            let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
+            let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            let knots = Tail::knots(family);
+            if tails.is_empty() && knots.is_empty() {
+                continue;
+            }
+            let of_factor = (factor, Term::new())..(factor + 1, Term::new());
+            for ((_, others), group) in groups.iter().flat_map(|groups| groups.range(of_factor.clone())) {
+                let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
+                // A close fit determines tails, and no knots.
+                let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
+                let (tail, knot) = (Departure::sum(&tails, group), Departure::sum(&knots, group));
+                if others.is_empty() {
+                    all.mean += weight * tail.mean + share * knot.mean;
+                }
+                all.add(&with(others, factor), weight * tail.square + share * knot.square, effects);
+            }
+        }
+        all
+    }
+
+    fn add(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
+        self.variance += error;
+        for (number, swap) in swaps.iter().enumerate() {
+            self.first_order[number] += if within(term, swap) { error } else { 0.0 };
+            self.total[number] += if touches(term, swap) { error } else { 0.0 };
+        }
+        for (of_pair, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
+            *of_pair += if is_interaction(term, &swaps[j], &swaps[k]) { error } else { 0.0 };
+        }
+    }
+}
+
+/// Returns the largest degree of a factor in `terms`.
+fn degree(terms: &[Term], factor: usize) -> usize {
+    terms.iter().flatten().filter(|(of, _)| *of == factor).map(|(_, degree)| *degree).max().unwrap_or(0)
+}
+
+/// Returns `rest` with the factor inserted; its degree is irrelevant.
+fn with(rest: &[(usize, usize)], factor: usize) -> Term {
+    let mut term = rest.to_vec();
+    term.insert(term.partition_point(|(other, _)| *other < factor), (factor, 1));
+    term
+}
+
+/// The polynomials of one factor that are multiplied by the same polynomials of the others.
+#[derive(Default)]
+pub(crate) struct Group {
+    /// Degrees and coefficients.
+    pub coefficients: Vec<(usize, f64)>,
+    /// The coefficient of the term without the factor; 0 for the constant, which does not contribute to the variance.
+    pub offset: f64,
+}
+
+impl Group {
+    /// Returns their sum at a node, given the polynomials of degree 1, 2, ... at the nodes.
+    fn value(&self, columns: &[Vec<f64>], node: usize) -> f64 {
+        self.offset + self.coefficients.iter().map(|&(degree, b)| b * columns[degree - 1][node]).sum::<f64>()
+    }
+}
+
+/// Returns the polynomials of every factor, grouped by the factor and the polynomials that multiply them.
+pub(crate) fn groups(expansion: &Expansion) -> BTreeMap<(usize, Term), Group> {
+    let mut groups: BTreeMap<(usize, Term), Group> = BTreeMap::new();
+    for (term, b) in expansion.varying() {
+        for (place, &(factor, degree)) in term.iter().enumerate() {
+            let mut others = term.clone();
+            others.remove(place);
+            groups.entry((factor, others)).or_default().coefficients.push((degree, b));
+        }
+    }
+    let coefficients: BTreeMap<&Term, f64> = expansion.varying().collect();
+    for ((_, others), group) in &mut groups {
+        group.offset = coefficients.get(others).copied().unwrap_or(0.0);
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,288 @@
+//! Surrogates of many outputs of one run. Neighbours whose runs failed at the same points share the polynomials of the
+//! points and the terms, which are chosen for all of them; each output has separate coefficients, and a number
+//! of terms by cross-validation over the nets. A thousand outputs then cost about fifty times as much as one.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::basis::{Caps, Family, Term, degree_alone};
+use super::fit::{Expansion, Training};
+use super::knots::{Knotted, MAX_MOVED, MovedValues, knots};
+use super::net::Net;
+use super::outputs::{OutputTable, ScaledOutput};
+use super::{
+    Corrected, MAX_HERMITE_DEGREES, Trial, estimates, fewest_points, fitted_design, fitted_to_others, in_chunks,
+    surrogate_estimates, takes_surrogates, trials,
+};
+use crate::correction::{ChosenTerms, Contributions, Effects, Knot, SurrogateEstimates, values_and_rest};
+use crate::design::Design;
+use crate::effect::Layout;
+use crate::estimate::PointOutputs;
+
+/// Maximum number of outputs that are fitted one by one: separate terms gain more than they cost.
+const MAX_ALONE: usize = 32;
+
+/// Approximate number of neighbours that share their terms. Outputs of a series change slowly along it.
+const NEIGHBOURS: usize = 64;
+
+/// Residual share of the variance of an output above which it may have steps and kinks.
+const ROUGH: f64 = 1e-4;
+
+/// Maximum ratio of the residual with knots to that of polynomials for which knots are used.
+const KNOTS_RATIO: f64 = 0.9;
+
+/// Returns the estimates of [`surrogate_estimates`] for each of `outputs`, which have the outputs of every replicate,
+/// by the terms of the same output in `longer`, those of a longer run, if there are any; above 32 outputs by shared
+/// terms.
+pub(crate) fn surrogates_together(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    outputs: &[Vec<&PointOutputs>],
+    longer: &[Option<SurrogateEstimates>],
+) -> Vec<Option<SurrogateEstimates>> {
+    let chosen = (0..outputs.len()).map(|number| longer.get(number)?.as_ref()?.chosen.as_ref());
+    let chosen: Vec<Option<&ChosenTerms>> = chosen.collect();
+    if outputs.len() <= MAX_ALONE || !takes_surrogates(design, outputs[0].len()) {
+        let alone = outputs.iter().zip(chosen);
+        return alone.map(|(output, chosen)| surrogate_estimates(design, families, layout, output, chosen)).collect();
+    }
+    let runs = design.runs().len();
+    let scaled: Vec<Option<ScaledOutput>> =
+        outputs.par_iter().map(|replicates| ScaledOutput::new(replicates, runs, None)).collect();
+    // Grouped by the points at which all runs have a value.
+    let mut groups: BTreeMap<Vec<Vec<usize>>, Vec<(usize, &ScaledOutput)>> = BTreeMap::new();
+    for (number, output) in scaled.iter().enumerate() {
+        if let Some(output) = output {
+            groups.entry(output.complete_points()).or_default().push((number, output));
+        }
+    }
+    let mut all: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
+    for (complete, members) in groups {
+        // Lists of nearly equal length.
+        let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
+        for members in members.chunks(length) {
+            let (numbers, scaled): (Vec<usize>, Vec<&ScaledOutput>) = members.iter().copied().unzip();
+            let estimates: Vec<Option<SurrogateEstimates>> = if members.len() <= MAX_ALONE {
+                let alone = numbers.par_iter();
+                alone.map(|&k| surrogate_estimates(design, families, layout, &outputs[k], chosen[k])).collect()
+            } else {
+                fit_outputs(design, families, layout, &complete, &scaled, None)
+            };
+            for (number, estimates) in numbers.into_iter().zip(estimates) {
+                all[number] = estimates;
+            }
+        }
+    }
+    all
+}
+
+/// Fits `outputs` with values at the `complete` points of every replicate, with terms chosen together, or in those
+/// already `chosen`.
+pub(super) fn fit_outputs(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    complete: &[Vec<usize>],
+    outputs: &[&ScaledOutput],
+    chosen: Option<&ChosenTerms>,
+) -> Vec<Option<SurrogateEstimates>> {
+    let fitted = fitted_design(design);
+    let points = fitted.points_per_replicate() as usize;
+    let complete = complete.iter().map(|of_net| &of_net[..of_net.partition_point(|point| *point < points)]);
+    let complete: Vec<&[usize]> = complete.collect();
+    if complete.iter().any(|points| points.len() < fewest_points(design)) {
+        return vec![None; outputs.len()];
+    }
+    let complete = outputs.par_iter().map(|output| output.at(&complete)).collect();
+    let together = Together { design, fitted, families, effects: Effects::new(design, layout), outputs, complete };
+    let fits = together.fit_trials(chosen);
+    (0..outputs.len()).into_par_iter().map(|output| together.correct_output(&fits, output, chosen)).collect()
+}
+
+/// Outputs that share the points and the terms of their surrogates.
+struct Together<'a> {
+    design: &'a Design,
+    /// The first points of the design, to which surrogates are fitted.
+    fitted: Design,
+    families: &'a [Family],
+    effects: Effects,
+    outputs: &'a [&'a ScaledOutput],
+    /// The outputs at the fitted points that are complete.
+    complete: Vec<ScaledOutput>,
+}
+
+/// A trial fitted to all outputs.
+struct Fit {
+    /// The number of the trial.
+    kind: usize,
+    ratio: f64,
+    families: Vec<Family>,
+    degree: usize,
+    nets: Vec<Net>,
+    /// For every net the expansions of all outputs, fitted to the other nets.
+    expansions: Vec<Vec<Expansion>>,
+}
+
+impl Together<'_> {
+    /// Fits all trials, or the one `chosen` in its terms.
+    fn fit_trials(&self, chosen: Option<&ChosenTerms>) -> Vec<Fit> {
+        let Some(chosen) = chosen else {
+            let trials = trials(self.families).into_iter().enumerate();
+            return trials.map(|(kind, trial)| self.fit(kind, trial, None)).collect();
+        };
+        let trial = match chosen.knots.is_empty() {
+            true => trials(self.families).into_iter().nth(chosen.kind),
+            false => Some(with_knots(self.families, &chosen.knots)),
+        };
+        trial.into_iter().map(|trial| self.fit(chosen.kind, trial, Some(&chosen.of_nets))).collect()
+    }
+
+    /// Fits one trial to all outputs, in the terms `chosen` for each net, if there are any.
+    fn fit(&self, kind: usize, trial: Trial, chosen: Option<&[Vec<Term>]>) -> Fit {
+        let Trial { families, hermite_degree, ratio } = trial;
+        let caps = Caps::new(&families, hermite_degree);
+        let numbers = (0..self.outputs[0].nets.len()).into_par_iter();
+        let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, caps.degree)).collect();
+        let training = nets.iter().enumerate().map(|(k, net)| {
+            Training::of_outputs(net, self.complete.iter().map(|output| output.nets[k].runs.as_slice()).collect())
+        });
+        let expansions = fitted_to_others(&nets, &training.collect::<Vec<_>>(), caps, chosen);
+        let degree = caps.degree;
+        Fit { kind, ratio, families, degree, nets, expansions }
+    }
+
+    /// Returns net number `k` with the first output, in polynomials of `families`.
+    fn net(&self, k: usize, families: &[Family], degree: usize) -> Net {
+        let points = self.fitted.points_per_replicate() as usize;
+        Net::new(&self.fitted, k as u64, 0..points, families, degree, &self.outputs[0].nets[k].runs)
+    }
+
+    /// Estimates one output by the trial that leaves least unknown, with steps and kinks if these are worth it.
+    fn correct_output(&self, fits: &[Fit], output: usize, chosen: Option<&ChosenTerms>) -> Option<SurrogateEstimates> {
+        let mut best: Option<(&Fit, Corrected)> = None;
+        for fit in fits {
+            let next = self.corrected(fit, output);
+            if best.as_ref().is_none_or(|(_, best)| next.unknown() < fit.ratio * best.unknown()) {
+                best = Some((fit, next));
+            }
+        }
+        let (fit, mut best) = best?;
+        let mut knots = chosen.map_or_else(Vec::new, |chosen| chosen.knots.clone());
+        // If factors are unbounded, residuals in a few rows are a tail.
+        let is_tail = self.families.contains(&Family::Hermite) && best.is_heavy_tailed();
+        if chosen.is_none() && self.outputs.len() == 1 && best.residual() > ROUGH && !is_tail {
+            (knots, best) = self.add_knots(fit, best);
+        }
+        let mut all = estimates(&best, &[], self.outputs[output].scale);
+        if self.outputs.len() == 1 {
+            all.chosen = Some(ChosenTerms { kind: fit.kind, knots, of_nets: terms_of(&best.expansions) });
+        }
+        Some(all)
+    }
+
+    /// Corrects every net of one output by the expansion that was fitted to the others.
+    fn corrected(&self, fit: &Fit, output: usize) -> Corrected {
+        let expansions: Vec<Expansion> = fit.expansions.iter().map(|of_net| of_net[output].clone()).collect();
+        let points = self.design.points_per_replicate() as usize;
+        let is_fitted = self.fitted.points_per_replicate() as usize == points;
+        let nets = expansions.par_iter().enumerate().map(|(k, expansion)| {
+            if is_fitted {
+                let net = fit.nets[k].with_outputs(self.complete[output].nets[k].runs.clone());
+                return Contributions::new(self.design, &net, expansion, &self.effects);
+            }
+            let runs = &self.outputs[output].nets[k].runs;
+            in_chunks(points, |chunk| {
+                let net = Net::new(self.design, k as u64, chunk, &fit.families, fit.degree, runs);
+                Contributions::new(self.design, &net, expansion, &self.effects)
+            })
+        });
+        let nets = nets.collect();
+        Corrected::new(&self.fitted, nets, expansions, &fit.families, &self.effects)
+    }
+
+    /// Adds steps and kinks to the `best` surrogate of the only output, a `fit` without any, as long as they reduce the
+    /// residual. Returns the knots and the surrogate with them.
+    fn add_knots(&self, fit: &Fit, mut best: Corrected) -> (Vec<Vec<Knot>>, Corrected) {
+        let mut knots = Vec::new();
+        let (mut next, mut terms) = (self.find_knots(fit, &best.expansions), None);
+        for (is_last, ratio) in [(false, KNOTS_RATIO), (true, 1.0)] {
+            if next.iter().all(Vec::is_empty) {
+                break;
+            }
+            let fit = self.fit(fit.kind, with_knots(self.families, &next), terms.as_deref());
+            let corrected = self.corrected(&fit, 0);
+            if corrected.residual() > ratio * best.residual() {
+                break;
+            }
+            // The second time with the terms of the first, and with the knots where these place them.
+            terms = Some(terms_of(&corrected.expansions));
+            let placed = if is_last { Vec::new() } else { self.place_knots(&fit, &corrected.expansions) };
+            if corrected.unknown() <= ratio * best.unknown() {
+                (knots, best) = (next, corrected);
+            }
+            next = placed;
+        }
+        (knots, best)
+    }
+
+    /// Returns the knots of every factor that the residuals of these expansions show.
+    fn find_knots(&self, fit: &Fit, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
+        let rest = fit.nets.iter().zip(expansions);
+        let rest: Vec<OutputTable> =
+            rest.map(|(net, expansion)| OutputTable { runs: values_and_rest(net, expansion).1 }).collect();
+        let families = self.families.par_iter().enumerate();
+        families.map(|(factor, family)| knots(&fit.nets, &rest, factor, family, fit.degree)).collect()
+    }
+
+    /// Places the knots of a fit by these expansions of its output.
+    fn place_knots(&self, fit: &Fit, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
+        let [left, right] = [-MAX_MOVED, MAX_MOVED].map(|by| self.values_with_moved_knots(fit, expansions, by));
+        let moved = MovedValues { left, right };
+        let mut placed = Vec::with_capacity(fit.families.len());
+        for (factor, family) in fit.families.iter().enumerate() {
+            let Family::Knotted(knotted) = family else {
+                placed.push(Vec::new());
+                continue;
+            };
+            let terms = expansions.iter().flat_map(Expansion::iter);
+            let coefficients: Vec<(usize, f64)> =
+                terms.filter_map(|(term, b)| Some((degree_alone(term, factor)?, b))).collect();
+            placed.push(knotted.placed(&fit.nets, &moved, factor, &coefficients));
+        }
+        placed
+    }
+
+    /// Returns the values of expansions with all knots moved by `by` of their widths.
+    fn values_with_moved_knots(&self, fit: &Fit, expansions: &[Expansion], by: f64) -> Vec<OutputTable> {
+        let mut families = fit.families.clone();
+        for family in &mut families {
+            if let Family::Knotted(knotted) = family {
+                **knotted = Knotted::clone(knotted).moved(by);
+            }
+        }
+        let values = expansions.par_iter().enumerate().map(|(k, expansion)| {
+            let (runs, _) = values_and_rest(&self.net(k, &families, fit.degree), expansion);
+            OutputTable { runs }
+        });
+        values.collect()
+    }
+}
+
+fn terms_of(expansions: &[Expansion]) -> Vec<Vec<Term>> {
+    expansions.iter().map(|expansion| expansion.terms.clone()).collect()
+}
+
+/// Returns functions of all factors with these `knots`: the trial for an output with large residuals of polynomials.
+fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
+    let degree = Caps::degree_of(families.len());
+    let families = families.iter().zip(knots).map(|(family, knots)| match knots[..] {
+        [] => family.clone(),
+        _ => Family::Knotted(Box::new(Knotted::new(family, knots, degree))),
+    });
+    Trial { families: families.collect(), hermite_degree: MAX_HERMITE_DEGREES, ratio: 1.0 }
+}
+
+#[cfg(test)]
+mod tests;
