@@ -13,8 +13,8 @@ mod study;
 
 pub use catalogue::ModelKind;
 pub use command::{
-    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
-    TemplateError, TemplateProblem, Way, parse_answer, program_files,
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickMethod, Program,
+    Protocol, Source, TemplateError, TemplateProblem, parse_answer, program_files,
 };
 pub use study::{
     CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, NEW_PROGRAM, Problem,

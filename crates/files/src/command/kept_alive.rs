@@ -81,7 +81,7 @@ impl<'a> KeptAliveWorker<'a> {
         while session.credit > 0 && !session.is_closed {
             let mut text = String::new();
             while text.len() < TEXT
-                && (is_ahead && session.has_room() || session.asked.is_empty())
+                && (is_ahead && session.has_room() || session.pending.is_empty())
                 && let Some(row) = rows.next()
             {
                 if session.sent == 0 {
@@ -103,7 +103,7 @@ impl<'a> KeptAliveWorker<'a> {
         match session.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
             Some(Event::Output(bytes)) => {
                 for line in session.lines(&bytes) {
-                    self.hear(session, &line, rows)?;
+                    self.handle_line(session, &line, rows)?;
                 }
                 if session.unfinished() > LONGEST {
                     return Err(too_long(session));
@@ -123,12 +123,12 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Handles a line that the process has printed.
-    fn hear(&self, session: &mut Session, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
+    fn handle_line(&self, session: &mut Session, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
         let (model, protocol) = (self.model, self.protocol);
         let words = match parse_answer(protocol, &model.names, line) {
             Err(words) => words,
             Ok((number, answer)) => match session.find(number) {
-                Lookup::Asked(row) => {
+                Lookup::Pending(row) => {
                     match answer {
                         Ok(values) => rows.answer(row, &values),
                         Err(reason) => rows.fail(row, &reason),
@@ -194,9 +194,9 @@ impl<'a> KeptAliveWorker<'a> {
 
     /// Ends the process, and decides what happens to its pending rows.
     fn end(&self, session: Session, reason: &str, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
-        let is_own = session.sent == 1;
-        for row in session.asked.into_values() {
-            if rows.suspect(row, is_own) > self.model.settings.retries && is_own {
+        let is_alone = session.sent == 1;
+        for row in session.pending.into_values() {
+            if rows.suspect(row, is_alone) > self.model.settings.retries && is_alone {
                 rows.fail(row, reason);
                 let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
                 self.model.state.note_failure(&format!("{reason}; {hint}"))?;

@@ -57,6 +57,11 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
+/// Returns the value of an optional key.
+pub(super) fn copied<T: Copy>(typed: &Option<At<T>>) -> Option<T> {
+    typed.as_ref().map(|typed| *typed.get_ref())
+}
+
 /// A value that is not in the file, without a position.
 impl<T: Default> Default for At<T> {
     fn default() -> Self {

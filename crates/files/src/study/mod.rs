@@ -5,23 +5,29 @@ mod analysis;
 mod at;
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
 mod command;
+mod command_section;
 mod constants;
 mod context;
 mod dependence;
 mod distribution;
 mod error;
 mod expression;
+mod factors;
 mod fidelity;
 mod key_schemas;
+mod measured;
 mod models;
+mod output_table;
 mod outputs;
 mod overrides;
+mod parse;
 mod resolve;
 mod schema;
 mod sections;
 mod subjects;
 mod synonyms;
 mod template;
+mod units;
 
 use std::path::{Path, PathBuf};
 
@@ -39,8 +45,7 @@ pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 /// # Errors
 /// [`StudyError`] with the place in the file and what is expected.
 pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
-    let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
-    let text = read_text(path).map_err(unreadable)?;
+    let text = read_text(path).map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
     parse_study(&text, path, overrides)
 }
 

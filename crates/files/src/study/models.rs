@@ -9,16 +9,16 @@ use apportion::space::Space;
 use apportion::study::Subject;
 use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
-use super::at::ListOrTable;
+use super::at::{At, ListOrTable};
 use super::context::{Context, Fault, unknown_name};
-use super::distribution::own_inputs;
 use super::error::Problem;
-use super::sections::{At, StudyFile};
+use super::sections::StudyFile;
 use super::subjects::KnownSubject;
-use super::{command, constants, expression, outputs as own};
+use super::units::factor_inputs;
+use super::{command, constants, expression, outputs as external};
 use crate::ModelKind;
 
-/// A study file with a known model.
+/// A study file and the kind of its model.
 pub(super) struct Reading<'a> {
     pub context: &'a Context<'a>,
     pub file: &'a StudyFile,
@@ -53,11 +53,12 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "function",
         span: |file| file.function.as_ref().map(At::span),
-        inputs: |reading| Ok(known(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
+        inputs: |reading| Ok(known_function(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
         subject: |reading, _| {
             outputs(reading)?;
             // A test covers all kinds of this table.
-            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
+            let function =
+                known_function(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
             Ok((Arc::new(KnownSubject { function }), Vec::new()))
         },
         guide: None,
@@ -76,14 +77,14 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "external",
         span: |_| None,
-        inputs: |reading| own::inputs(reading.context, &reading.file.factor),
+        inputs: |reading| external::inputs(reading.context, &reading.file.factor),
         subject: outside,
         guide: Some(include_str!("../../templates/guides/external.txt")),
     },
     ModelTable {
         name: "command",
         span: |file| file.command.as_ref().map(At::span),
-        inputs: |reading| own_inputs(reading.context, &reading.file.factor),
+        inputs: |reading| factor_inputs(reading.context, &reading.file.factor),
         subject: program,
         guide: Some(include_str!("../../templates/guides/command.txt")),
     },
@@ -97,7 +98,7 @@ fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjec
 
 #[cfg(not(target_family = "wasm"))]
 fn outside(Reading { context, file, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Ok((Arc::new(own::subject(context, file.outputs.as_ref())?), Vec::new()))
+    Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
 }
 
 /// A page starts no programs, and does not contain the code for them.
@@ -122,25 +123,26 @@ pub fn model_guide(kind: ModelKind) -> Option<String> {
 }
 
 /// Returns the function with the parameters of its table.
-fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
-    let with_table = |answer| constants::known(reading.context, answer, reading.file.function.as_ref());
-    reading.kind.known.map(with_table).transpose()
+fn known_function(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
+    let Some(answer) = reading.kind.known else { return Ok(None) };
+    constants::known_function(reading.context, answer, reading.file.function.as_ref()).map(Some)
 }
 
 fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
-    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    // Histories come after the others in the catalogue.
-    let (places, histories): (Vec<usize>, Vec<usize>) =
-        outputs(reading)?.into_iter().partition(|place| *place < AfmOutput::ALL.len());
-    let outputs = places.into_iter().map(|place| AfmOutput::ALL[place]).collect();
-    let histories: Vec<AfmHistory> =
-        histories.into_iter().map(|place| AfmHistory::ALL[place - AfmOutput::ALL.len()]).collect();
+    let (mut values, mut histories) = (Vec::new(), Vec::new());
+    for place in outputs(reading)? {
+        // Histories come after the others in the catalogue.
+        match AfmOutput::ALL.get(place) {
+            Some(output) => values.push(*output),
+            None => histories.push(AfmHistory::ALL[place - AfmOutput::ALL.len()]),
+        }
+    }
     let none = Default::default();
     let table = reading.file.afm.as_ref().map_or(&none, At::get_ref);
-    let (scene, options) = constants::afm(reading.context, table, &is_factor)?;
+    let (scene, options) = constants::afm(reading.context, table, space)?;
     let moments = constants::moments(reading.context, table)?;
-    let notes = constants::idle(table, &options, !histories.is_empty());
-    Ok((Arc::new(AfmSubject { scene, options, outputs, histories, moments }), notes))
+    let notes = constants::notes(table, &options, !histories.is_empty());
+    Ok((Arc::new(AfmSubject { scene, options, outputs: values, histories, moments }), notes))
 }
 
 /// Returns the numbers of the outputs in the catalogue, in the requested order; by default the first one.
@@ -148,16 +150,16 @@ fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
     let Some(key) = &reading.file.outputs else { return Ok(vec![0]) };
     let Reading { context, kind, .. } = reading;
     let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
-    let asked = match key.get_ref() {
+    let names = match key.get_ref() {
         ListOrTable::List(names) if !names.is_empty() => names,
         _ => return Err(context.fault(key.span(), Problem::missing("names of outputs", example))),
     };
-    let known = kind.outputs();
+    let outputs = kind.outputs();
     let mut places = Vec::new();
-    for name in asked {
-        let unknown = || unknown_name("output", name.get_ref(), known.iter().map(|output| &*output.name));
-        let place = known.iter().position(|output| *output.name == **name.get_ref());
-        let place = context.at(name, place.ok_or_else(unknown))?;
+    for name in names {
+        let valid = outputs.iter().map(|output| &*output.name);
+        let place = valid.clone().position(|output| output == name.get_ref());
+        let place = context.at(name, place.ok_or_else(|| unknown_name("output", name.get_ref(), valid)))?;
         if places.contains(&place) {
             let problem = Problem::Repeated { what: "output", name: name.get_ref().clone() };
             return Err(context.fault(name.span(), problem));

@@ -20,10 +20,10 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde_json::json;
 
-use super::at::ListOrTable;
-pub(super) use super::at::{At, Choices};
-use super::command::CommandKey;
-use super::key_schemas::{self, names};
+use super::at::{At, Choices, ListOrTable};
+use super::command_section::CommandKey;
+use super::context::names_of;
+use super::key_schemas;
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -121,7 +121,7 @@ pub(super) struct DependenceSection {
     pub correlation: Option<At<Correlation>>,
     /// Measure of correlation: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
     /// ("normal"), which are the parameters of the copula.
-    #[schemars(extend("enum" = names(&CorrelationMeasure::ALL, CorrelationMeasure::name), "default" = "pearson"))]
+    #[schemars(extend("enum" = names_of::<CorrelationMeasure>(), "default" = "pearson"))]
     pub measure: Option<At<String>>,
     /// Instead of `correlation`: a CSV file of joint measurements, relative to the study, with a column named after each
     /// factor. The correlations are those of the normal scores of their ranks.
@@ -136,7 +136,6 @@ pub(super) struct DependenceSection {
 pub(super) enum Correlation {
     /// Of every pair.
     Pairs(f64),
-    /// The whole matrix.
     Matrix(Vec<Vec<f64>>),
 }
 
@@ -159,7 +158,7 @@ pub(super) struct NoiseSection {
 #[serde(deny_unknown_fields, expecting = "a table [design]")]
 pub(super) struct DesignSection {
     /// Kind of points: Sobol', random, or a Latin hypercube.
-    #[schemars(extend("enum" = names(&Sampler::ALL, Sampler::name), "default" = "sobol"))]
+    #[schemars(extend("enum" = names_of::<Sampler>(), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
     /// Total number of base samples, preferably a power of two for each replicate; the study costs base_samples x (2 + factors) runs.
     pub base_samples: Option<At<u64>>,
@@ -184,11 +183,11 @@ pub(super) type NameList = At<Vec<At<String>>>;
 #[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
     /// Further estimators, in addition to the default ones.
-    #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
+    #[schemars(extend("items" = json!({ "enum": names_of::<Estimator>() })))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// What has indices: every factor, and the groups in addition; or the groups in place of their factors, which takes the runs
     /// of so many factors.
-    #[schemars(extend("enum" = names(&IndicesOf::ALL, IndicesOf::name), "default" = "factors"))]
+    #[schemars(extend("enum" = names_of::<IndicesOf>(), "default" = "factors"))]
     pub indices_of: Option<At<String>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
@@ -198,7 +197,7 @@ pub(super) struct AnalysisSection {
     /// for up to 8 factors. By default for up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
     /// Other measures of the influence of every factor, from the first 4096 rows A and B; for at most 100 outputs.
-    #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
+    #[schemars(extend("items" = json!({ "enum": names_of::<Measure>() })))]
     pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
@@ -209,11 +208,11 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("default" = true))]
     pub convergence: Option<At<bool>>,
     /// How intervals are estimated; the default depends on the sampler.
-    #[schemars(extend("enum" = names(&IntervalMethod::ALL, IntervalMethod::name)))]
+    #[schemars(extend("enum" = names_of::<IntervalMethod>()))]
     pub intervals: Option<At<String>>,
     /// Whether surrogates (polynomials fitted to the runs) correct the indices. More accurate, by orders of magnitude for
     /// smooth models; needs time, and memory for all outputs.
-    #[schemars(extend("enum" = names(&SurrogateChoice::ALL, SurrogateChoice::name), "default" = "off"))]
+    #[schemars(extend("enum" = names_of::<SurrogateChoice>(), "default" = "off"))]
     pub surrogate: Option<At<String>>,
     /// Number of resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
@@ -222,7 +221,7 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
     /// What to do when a run fails.
-    #[schemars(extend("enum" = names(&FailurePolicy::ALL, FailurePolicy::name)))]
+    #[schemars(extend("enum" = names_of::<FailurePolicy>()))]
     pub failures: Option<At<String>>,
     /// Largest share of runs that may fail; beyond it no indices are estimated.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
@@ -300,9 +299,9 @@ impl<'de> Visitor<'de> for FactorVisitor {
                 "unit" => fields.unit = Some(map.next_value()?),
                 "group" => fields.group = Some(map.next_value()?),
                 "nominal" => fields.nominal = Some(map.next_value()?),
-                own => {
-                    let key = KEYS.iter().find(|key| key.name == own);
-                    let key = key.ok_or_else(|| A::Error::unknown_field(own, &FACTOR_KEYS))?;
+                name => {
+                    let key = KEYS.iter().find(|key| key.name == name);
+                    let key = key.ok_or_else(|| A::Error::unknown_field(name, &FACTOR_KEYS))?;
                     let (span, value) = typed_value(key.kind, &mut map)?;
                     fields.keys.push(TypedKey { key, span, value });
                 }
@@ -314,18 +313,18 @@ impl<'de> Visitor<'de> for FactorVisitor {
 }
 
 fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Range<usize>, TypedValue), A::Error> {
-    fn parts<T>(value: At<T>, of: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
-        (value.span(), of(value.into_inner()))
-    }
-    let plain = TypedValue::Parameter;
     Ok(match kind {
-        KeyKind::Number => parts(map.next_value()?, |number| plain(Parameter::Number(number))),
-        KeyKind::Numbers => parts(map.next_value()?, |list| plain(Parameter::List(list))),
+        KeyKind::Number => spanned(map.next_value()?, |number| TypedValue::Parameter(Parameter::Number(number))),
+        KeyKind::Numbers => spanned(map.next_value()?, |list| TypedValue::Parameter(Parameter::List(list))),
         KeyKind::Text => map.next_value().map(|text: At<String>| (text.span(), TypedValue::Text(text)))?,
-        KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
-        KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
-        KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
+        KeyKind::Texts => spanned(map.next_value()?, |texts| TypedValue::Parameter(Parameter::Texts(texts))),
+        KeyKind::Bounds => spanned(map.next_value()?, TypedValue::Bounds),
+        KeyKind::Quantiles => spanned(map.next_value()?, TypedValue::Quantiles),
     })
+}
+
+fn spanned<T>(value: At<T>, convert: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
+    (value.span(), convert(value.into_inner()))
 }
 
 /// Keys of a factor that are not about its distribution.
@@ -341,8 +340,8 @@ struct FactorKey(&'static str);
 impl<'de> Deserialize<'de> for FactorKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let typed = String::deserialize(deserializer)?;
-        let known = FACTOR_KEYS.iter().find(|key| **key == typed);
-        known.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
+        let key = FACTOR_KEYS.iter().find(|key| **key == typed);
+        key.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
     }
 }
 

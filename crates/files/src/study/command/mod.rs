@@ -2,24 +2,21 @@
 
 mod runs;
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 use std::time::Duration;
 
 use apportion::space::Space;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::analysis::seconds;
 use super::at::{At, ListOrTable};
-use super::context::{Context, Fault, Reach, choice_if_said, folder, refuse_outside_of_run, resolve, wrong};
+use super::command_section::{CommandKey, CommandSection};
+use super::context::{Context, Fault, PathScope, folder, optional_choice, refuse_outside_of_run, resolve, wrong};
 use super::error::Problem;
-use super::key_schemas::names;
-use super::outputs::own_outputs;
+use super::outputs::stated_outputs;
 use super::sections::Outputs;
 use super::subjects::CommandSubject;
+use super::units::seconds;
 use crate::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
 
 pub(super) fn no_program() -> Problem {
@@ -34,9 +31,9 @@ pub(super) fn subject(
     space: &Space,
 ) -> Result<(CommandSubject, Vec<String>), Fault> {
     let Some(key) = key else { return Err(context.fault(0..0, no_program())) };
-    let unsaid = CommandSection::default();
+    let default = CommandSection::default();
     let (section, program) = match key.get_ref() {
-        ListOrTable::List(program) => (&unsaid, program.as_slice()),
+        ListOrTable::List(program) => (&default, program.as_slice()),
         ListOrTable::Table(section) => {
             (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
         }
@@ -51,11 +48,11 @@ pub(super) fn subject(
         Some(typed) => existing(context, section, typed, "directory")?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
-    let all = own_outputs(context, outputs)?;
+    let all = stated_outputs(context, outputs)?;
     for Pick { source, .. } in all.outputs.iter().filter_map(|output| output.pick.as_ref()) {
         if let Source::File(file) = source {
             let place = outputs.map_or(0..0, At::span);
-            refuse_outside_of_run(context, place, file, reach(section))?;
+            refuse_outside_of_run(context, place, file, path_scope(section))?;
         }
     }
     let (form, notes) = match &section.template {
@@ -90,27 +87,28 @@ pub(super) fn subject(
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
-        asked: (0..all.outputs.len()).collect(),
+        requested: (0..all.outputs.len()).collect(),
         outputs: all.outputs,
         series: all.series,
-        workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
+        workers: number_within(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
         timeout: timeout.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
-        retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
+        retries: number_within(context, "retries", section.retries.as_ref(), 0..=100)?
+            .map_or(1, |number| number as u32),
     };
     Ok((CommandSubject { settings, stated, depends_on }, notes))
 }
 
 /// Returns how far the paths of the study may lead.
-fn reach(section: &CommandSection) -> Reach {
+fn path_scope(section: &CommandSection) -> PathScope {
     let is_free = section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref());
-    if is_free { Reach::Anywhere } else { Reach::Inside }
+    if is_free { PathScope::Anywhere } else { PathScope::StudyFolder }
 }
 
 /// Returns the typed path of an existing `file` or `directory`.
 fn existing(context: &Context<'_>, section: &CommandSection, typed: &At<String>, what: &str) -> Result<PathBuf, Fault> {
-    let path = resolve(context, typed, reach(section))?;
-    let is_there = if what == "file" { path.is_file() } else { path.is_dir() };
-    if is_there {
+    let path = resolve(context, typed, path_scope(section))?;
+    let exists = if what == "file" { path.is_file() } else { path.is_dir() };
+    if exists {
         return Ok(path);
     }
     let problem = format!("{}: there is no such {what}", path.display());
@@ -134,7 +132,7 @@ fn protocol(
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
         return Err(context.fault(span, wrong(key, RUNS, "without it".to_owned())));
     }
-    Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
+    Ok(optional_choice(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
 }
 
 /// Refuses a factor, or an output of JSON, with the name of the row number.
@@ -155,11 +153,11 @@ fn refuse_number(
     Ok(())
 }
 
-fn whole(
+fn number_within(
     context: &Context<'_>,
     key: &str,
     typed: Option<&At<u64>>,
-    range: std::ops::RangeInclusive<u64>,
+    range: RangeInclusive<u64>,
 ) -> Result<Option<u64>, Fault> {
     let Some(typed) = typed else { return Ok(None) };
     if range.contains(typed.get_ref()) {
@@ -167,48 +165,4 @@ fn whole(
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
     context.refuse(typed, key, &expected, typed.get_ref().to_string())
-}
-
-/// The program alone, or a table.
-pub type CommandKey = ListOrTable<Box<CommandSection>>;
-
-/// A program of your own as the model.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table [command]")]
-pub struct CommandSection {
-    /// The program and its arguments; no shell reads them.
-    #[schemars(length(min = 1))]
-    pub program: Option<At<Vec<At<String>>>>,
-    /// The format of rows and answers of a program that is kept alive.
-    #[schemars(extend("enum" = names(&Protocol::ALL, Protocol::name), "default" = "csv"))]
-    pub protocol: Option<At<String>>,
-    /// Number of processes at the same time; by default the number of cores.
-    #[schemars(range(min = 1, max = 1024))]
-    pub workers: Option<At<u64>>,
-    /// Time limit for a row, as in "60 s"; by default none.
-    pub timeout: Option<At<String>>,
-    /// How often a row is retried after the program crashed, hung or printed an invalid answer; once by default.
-    #[schemars(range(max = 100))]
-    pub retries: Option<At<u64>>,
-    /// Working directory of the program, relative to the study; by default the folder of the study.
-    pub directory: Option<At<String>>,
-    /// Environment variables that are set for the program.
-    #[serde(default)]
-    pub env: BTreeMap<String, String>,
-    /// Other files that its answers depend on, such as data, relative to the study: recorded answers from before a change of these
-    /// files are not reused. The program and files among its arguments are included; list what they import.
-    #[serde(default)]
-    pub depends_on: Vec<At<String>>,
-    /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
-    /// row, in its own directory.
-    pub template: Option<At<String>>,
-    /// Name of the input file in the directory of a run; by default that of the template.
-    pub input: Option<At<String>>,
-    /// Files that are copied to the directory of each run, relative to the study.
-    #[serde(default)]
-    pub files: Vec<At<String>>,
-    /// Whether paths in this table may lead outside the study's folder.
-    pub files_outside: Option<At<bool>>,
-    /// Folder that keeps the directories of runs, relative to the study; by default each is removed after its run.
-    pub keep: Option<At<String>>,
 }

@@ -7,8 +7,10 @@ use apportion::study::did_you_mean;
 use apportion_base::files::read_text;
 use apportion_base::names::nearest;
 
-use super::{At, CommandKey, CommandSection, Context, Fault, existing, reach};
-use crate::study::context::{resolve, wrong};
+use super::{existing, path_scope};
+use crate::study::at::At;
+use crate::study::command_section::{CommandKey, CommandSection};
+use crate::study::context::{Context, Fault, resolve, wrong};
 use crate::study::error::Problem;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
@@ -26,16 +28,14 @@ pub(super) fn form(
         let expected = "used only without `template`, for a program that is kept alive";
         return Err(context.fault(protocol.span(), wrong("protocol", expected, "with it".to_owned())));
     }
-    let template_file = resolve(context, template, reach(section))?;
-    let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
-    let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
-    refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
+    let template_file = resolve(context, template, path_scope(section))?;
+    let input = section.input.as_ref().map_or_else(|| name_of(&template_file), |input| input.get_ref().clone());
+    context.at(section.input.as_ref().unwrap_or(template), refuse_place("input", &input))?;
     let read = context.at(template, read_template(&template_file, space))?;
     let unused = space.factors().iter().enumerate().filter(|(number, _)| !read.uses(*number));
     let notes = unused.map(|(_, factor)| format!("factor `{}` is not in the template", factor.name)).collect();
     let files = files(context, section, &input)?;
-    let keep = section.keep.as_ref().map(|keep| resolve(context, keep, reach(section))).transpose()?;
+    let keep = section.keep.as_ref().map(|keep| resolve(context, keep, path_scope(section))).transpose()?;
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
 }
 
@@ -56,15 +56,14 @@ fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
         let help = "it must be text in UTF-8; its path is relative to the study";
         Problem::with_help(format!("{}: cannot read the template: {error}", path.display()), help)
     })?;
-    let names = || space.factors().iter().map(|factor| factor.name.as_str());
-    InputTemplate::parse(&text, &|name| names().position(|known| known == name)).map_err(|error| {
+    let names: Vec<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
+    InputTemplate::parse(&text, &|name| names.iter().position(|factor| *factor == name)).map_err(|error| {
         let near = match &error.problem {
-            TemplateProblem::Unknown(name) => nearest(name, names()),
+            TemplateProblem::Unknown(name) => nearest(name, names.iter().copied()),
             TemplateProblem::Open => None,
         };
         let place = format!("{}:{}:{}", path.display(), error.line, error.column);
-        let names = names().collect::<Vec<_>>().join(", ");
-        let help = format!("factors: {names}; write `{{{{{{{{` for two literal braces");
+        let help = format!("factors: {}; write `{{{{{{{{` for two literal braces", names.join(", "));
         Problem::with_help(format!("{place}: {error}{}", did_you_mean(&near)), help)
     })
 }
@@ -86,13 +85,16 @@ fn files(context: &Context<'_>, section: &CommandSection, input: &str) -> Result
     let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
     for typed in &section.files {
         let path = existing(context, section, typed, "file")?;
-        let fault = |problem| context.fault(typed.span(), problem);
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        refuse_place("files", &name).map_err(fault)?;
+        let name = name_of(&path);
+        context.at(typed, refuse_place("files", &name))?;
         if name == input || paths.iter().any(|other| other.file_name() == path.file_name()) {
-            return Err(fault(Problem::Repeated { what: "file of a run's directory", name }));
+            return Err(context.fault(typed.span(), Problem::Repeated { what: "file of a run's directory", name }));
         }
         paths.push(path);
     }
     Ok(paths)
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
