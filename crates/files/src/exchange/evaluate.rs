@@ -142,27 +142,26 @@ impl<'a> PointsReader<'a> {
     /// # Errors
     /// [`TableError`] if there are no names, or one of them is unknown.
     pub fn new(rows: &'a mut dyn RowReader, space: &Space) -> Result<Self, TableError> {
-        let known = || space.factors().iter().map(|factor| factor.name.as_str());
-        let known_text = || known().collect::<Vec<_>>().join(", ");
+        let valid: Vec<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
         let Some(names) = rows.names().map(<[String]>::to_vec) else {
             return refused(format!(
                 "its {} columns have no names: name the factors in their order (--names), out of {}",
                 rows.width(),
-                known_text()
+                valid.join(", ")
             ));
         };
         let (mut wanted, mut factors, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
         for (place, name) in names.into_iter().enumerate() {
-            if let Some(factor) = known().position(|factor| factor == name) {
+            if let Some(factor) = valid.iter().position(|factor| *factor == name) {
                 wanted.push((place, factor_column(&space.factors()[factor])));
                 factors.push(factor);
             } else if rows.text_columns()?.iter().any(|(text, _)| *text == place) {
                 skipped.push(name);
             } else {
-                let (column, hint) = (place + 1, did_you_mean(&nearest(&name, known())));
+                let (column, hint) = (place + 1, did_you_mean(&nearest(&name, valid.iter().copied())));
                 return refused(format!(
                     "column {column}: `{name}` is not a factor of the study{hint}; its factors are {}",
-                    known_text()
+                    valid.join(", ")
                 ));
             }
         }

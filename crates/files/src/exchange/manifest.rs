@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::design::{Matrix, Run};
+use apportion::design::Matrix;
 use apportion::study::{Study, Target};
 use serde::{Deserialize, Serialize};
 
@@ -96,14 +96,14 @@ impl Manifest {
     /// Creates the manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
     pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
         let settings = study.design().settings();
-        let column = |column: &usize| study.space().factors()[*column].name.clone();
-        let run = |run: &Run| ManifestRun {
+        let factors = study.space().factors();
+        let layout = study.design().runs().iter().map(|run| ManifestRun {
             base: matrix(run.base),
-            columns: run.columns.iter().map(column).collect(),
+            columns: run.columns.iter().map(|factor| factors[*factor].name.clone()).collect(),
             from: matrix(run.from),
-            following: run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
-        };
-        let factors = study.space().factors().iter().map(|factor| ManifestFactor {
+            following: run.mixed.iter().map(|(factor, _)| factors[*factor].name.clone()).collect(),
+        });
+        let factors = factors.iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),
             unit: factor.unit().to_string(),
             labels: factor.distribution().labels().map(<[String]>::to_vec),
@@ -129,7 +129,7 @@ impl Manifest {
                 order: "replicate by replicate, base point by base point, the rows of `layout` of each: the row of \
                         matrix `base` with `columns` of matrix `from`"
                     .to_owned(),
-                layout: study.design().runs().iter().map(run).collect(),
+                layout: layout.collect(),
                 sha256,
             },
             factors: factors.collect(),
@@ -153,14 +153,16 @@ impl Manifest {
     /// # Errors
     /// [`TableError`] if it is not a manifest, or of a later version.
     pub fn parse(text: &str) -> Result<Self, TableError> {
-        let not_one = |reason: &dyn std::fmt::Display| format!("not a manifest of a design: {reason}");
-        let manifest: Self = serde_json::from_str(text).map_err(|error| TableError::Refused(not_one(&error)))?;
+        let manifest: Self = serde_json::from_str(text)
+            .map_err(|error| TableError::Refused(format!("not a manifest of a design: {error}")))?;
         match (manifest.format.as_str(), manifest.version) {
             (FORMAT, ..=VERSION) => Ok(manifest),
             (FORMAT, later) => refused(format!(
                 "format version {later} of the manifest is unknown: this program reads versions up to {VERSION}"
             )),
-            (other, _) => refused(not_one(&format!("its format is {other:?}, expected \"{FORMAT}\""))),
+            (other, _) => {
+                refused(format!("not a manifest of a design: its format is {other:?}, expected \"{FORMAT}\""))
+            }
         }
     }
 
@@ -179,9 +181,9 @@ impl Manifest {
         let study = crate::parse_study(text, Path::new(file), overrides)
             .map_err(|error| TableError::Refused(format!("the study in the manifest: {error}")))?;
         if study.sha256() != *sha256 {
-            let found = study.sha256();
+            let actual = study.sha256();
             return refused(format!(
-                "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {found}, not {sha256}"
+                "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {actual}, not {sha256}"
             ));
         }
         if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {

@@ -140,14 +140,14 @@ impl RowReader for CsvRows {
         {
             self.ahead.push_back(next);
         }
-        let number = ColumnKind::default();
-        let text = |place: usize| {
+        let (kind, mut columns) = (ColumnKind::default(), Vec::new());
+        for place in 0..self.width {
             let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
             // The first cell with a value decides.
-            let cell = cells.find(|cell| !number.value(cell).is_some_and(f64::is_nan))?;
-            number.value(cell).is_none().then(|| (place, cell.to_owned()))
-        };
-        Ok((0..self.width).filter_map(text).collect())
+            let cell = cells.find(|cell| !kind.value(cell).is_some_and(f64::is_nan));
+            columns.extend(cell.filter(|cell| kind.value(cell).is_none()).map(|cell| (place, cell.to_owned())));
+        }
+        Ok(columns)
     }
 
     fn line(&self, row: usize) -> Option<u64> {
