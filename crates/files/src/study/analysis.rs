@@ -15,7 +15,7 @@ use super::units::seconds;
 
 /// Applies the tables to `builder`.
 pub(super) fn apply_tables(
-    context: &Context<'_>,
+    context: &Context,
     file: &StudyFile,
     space: &Space,
     builder: &mut StudyBuilder,
@@ -39,7 +39,7 @@ fn set<T: Copy>(to: &mut T, typed: &Option<At<T>>) {
     *to = copied(typed).unwrap_or(*to);
 }
 
-fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
+fn options(context: &Context, file: &StudyFile, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
     let section = &file.analysis;
     let mut options = AnalysisOptions::for_sampler(sampler);
     set(&mut options.second_order, &section.second_order);
@@ -71,7 +71,7 @@ fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Sp
 }
 
 /// Returns the position of a factor by name.
-pub(super) fn factor_index(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
+pub(super) fn factor_index(context: &Context, name: &At<String>, space: &Space) -> Result<usize, Fault> {
     let names = space.factors().iter().map(|factor| factor.name.as_str());
     let index = names.clone().position(|factor| factor == name.get_ref());
     context.at(name, index.ok_or_else(|| unknown_name("factor", name.get_ref(), names)))
@@ -82,7 +82,7 @@ const MAX_REPETITIONS: u64 = 1000;
 
 /// Returns the subject with the study's number of repetitions of each row.
 pub(super) fn repeated(
-    context: &Context<'_>,
+    context: &Context,
     file: &StudyFile,
     subject: Arc<dyn Subject>,
     space: &Space,

@@ -14,7 +14,7 @@ use super::key_schemas::afm_choices;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
 
 /// Reads the table into a scene and options, starting from the defaults. Factors of `space` must not be fixed.
-pub(super) fn afm(context: &Context<'_>, table: &Choices, space: &Space) -> Result<(Scene, Options), Fault> {
+pub(super) fn afm(context: &Context, table: &Choices, space: &Space) -> Result<(Scene, Options), Fault> {
     let (mut scene, mut options) = (Scene::default(), Options::default());
     for (key, value) in table {
         let name = key.get_ref().as_str();
@@ -67,7 +67,7 @@ const DURATION: f64 = 0.4;
 const POINTS: usize = 40;
 
 /// Returns the moments of the outputs that are histories, from the key `history`.
-pub(super) fn moments(context: &Context<'_>, table: &Choices) -> Result<AfmMoments, Fault> {
+pub(super) fn moments(context: &Context, table: &Choices) -> Result<AfmMoments, Fault> {
     let Some((_, typed)) = table.iter().find(|(key, _)| key.get_ref() == "history") else {
         return history(&Table::new()).map_err(|problem| context.fault(0..0, problem));
     };
@@ -176,7 +176,7 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
 
 /// Returns the function with the parameters of the table.
 pub(super) fn known_function(
-    context: &Context<'_>,
+    context: &Context,
     answer: &'static KnownAnswer,
     table: Option<&At<Choices>>,
 ) -> Result<KnownFunction, Fault> {

@@ -19,14 +19,14 @@ use super::synonyms::suggestion_for;
 pub(super) type Fault = Box<Diagnostic>;
 
 /// The text being read.
-pub(super) struct Context<'a> {
+pub(super) struct Context {
     pub path: PathBuf,
-    pub text: &'a str,
+    pub text: String,
 }
 
-impl Context<'_> {
+impl Context {
     pub(super) fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
-        Box::new(Diagnostic::new(&self.path, self.text, span, problem))
+        Box::new(Diagnostic::new(&self.path, &self.text, span, problem))
     }
 
     /// Attaches the position of `typed` to the error of `result`.
@@ -64,7 +64,7 @@ pub(super) fn names_of<T: Named>() -> Vec<&'static str> {
 }
 
 /// Parses the choice of a text, which is a `what`.
-pub(super) fn choice<T: Named>(context: &Context<'_>, typed: &At<String>, what: &'static str) -> Result<T, Fault> {
+pub(super) fn choice<T: Named>(context: &Context, typed: &At<String>, what: &'static str) -> Result<T, Fault> {
     context.at(typed, named(typed.get_ref(), what))
 }
 
@@ -76,7 +76,7 @@ pub(super) fn named<T: Named>(text: &str, what: &'static str) -> Result<T, Probl
 
 /// Parses the choice of an optional key.
 pub(super) fn optional_choice<T: Named>(
-    context: &Context<'_>,
+    context: &Context,
     typed: &Option<At<String>>,
     what: &'static str,
 ) -> Result<Option<T>, Fault> {
@@ -109,7 +109,7 @@ pub(super) enum PathScope {
 }
 
 /// Returns the folder of the study, absolute: programs run elsewhere.
-pub(super) fn folder(context: &Context<'_>) -> PathBuf {
+pub(super) fn folder(context: &Context) -> PathBuf {
     let folder = context.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     // Without the "." for the current folder.
@@ -120,7 +120,7 @@ pub(super) fn folder(context: &Context<'_>) -> PathBuf {
 ///
 /// # Errors
 /// [`Problem`] if it is outside `scope`.
-pub(super) fn resolve(context: &Context<'_>, typed: &At<String>, scope: PathScope) -> Result<PathBuf, Fault> {
+pub(super) fn resolve(context: &Context, typed: &At<String>, scope: PathScope) -> Result<PathBuf, Fault> {
     let folder = folder(context);
     let path = folder.join(typed.get_ref());
     if scope == PathScope::Anywhere || is_inside(&path, &folder).unwrap_or(false) {
@@ -139,7 +139,7 @@ fn is_inside(path: &Path, folder: &Path) -> Option<bool> {
 /// # Errors
 /// As for [`resolve`].
 pub(super) fn refuse_outside_of_run(
-    context: &Context<'_>,
+    context: &Context,
     span: Range<usize>,
     file: &str,
     scope: PathScope,
@@ -151,7 +151,7 @@ pub(super) fn refuse_outside_of_run(
     Err(outside(context, span, Path::new(file), "outside the directory of a run"))
 }
 
-fn outside(context: &Context<'_>, span: Range<usize>, path: &Path, place: &str) -> Fault {
+fn outside(context: &Context, span: Range<usize>, path: &Path, place: &str) -> Fault {
     let help = "name one inside, or add files_outside = true to [command]";
     context.fault(span, Problem::with_help(format!("{}: the path leads {place}", path.display()), help))
 }

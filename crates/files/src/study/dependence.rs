@@ -9,11 +9,11 @@ use super::measured::read_measured;
 use super::sections::{Correlation, DependenceSection, StudyFile};
 
 /// Returns the dependences of `file`.
-pub(super) fn dependences(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Vec<Dependence>, Fault> {
+pub(super) fn dependences(context: &Context, file: &StudyFile, space: &Space) -> Result<Vec<Dependence>, Fault> {
     file.dependence.iter().map(|section| dependence(context, section, space)).collect()
 }
 
-fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Space) -> Result<Dependence, Fault> {
+fn dependence(context: &Context, section: &At<DependenceSection>, space: &Space) -> Result<Dependence, Fault> {
     let DependenceSection { factors, correlation, measure, .. } = section.get_ref();
     let mut names = Vec::new();
     for name in factors.get_ref() {
@@ -53,7 +53,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
 }
 
 /// Returns the joint measurements of a dependence, a column for each of its factors; `None` if it has none.
-fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Result<Option<Vec<Vec<f64>>>, Fault> {
+fn measured_columns(context: &Context, section: &DependenceSection) -> Result<Option<Vec<Vec<f64>>>, Fault> {
     let names = section.factors.get_ref();
     let mut columns = Vec::with_capacity(names.len());
     let span = match (&section.file, &section.measurements) {

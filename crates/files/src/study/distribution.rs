@@ -17,7 +17,7 @@ pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution)
 }
 
 /// Returns the distribution of a factor.
-pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
+pub(super) fn of_factor(context: &Context, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
     let kind = kind(context, fields)?;
     let mut values = Vec::with_capacity(fields.keys.len());
@@ -37,7 +37,7 @@ pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
 }
 
 /// Returns the family, by default the first.
-fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
+fn kind(context: &Context, fields: &FactorSection) -> Result<Kind, Fault> {
     match &fields.distribution {
         None => Ok(Kind::default()),
         Some(typed) => {
@@ -49,7 +49,7 @@ fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
 }
 
 /// Returns the value of a key.
-fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
+fn parameter(context: &Context, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
     Ok(match &typed.value {
         TypedValue::Parameter(parameter) => parameter.clone(),
         TypedValue::Text(file) if typed.key.name == "file" && kind.name() == "empirical" => {

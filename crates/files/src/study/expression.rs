@@ -9,22 +9,22 @@ use apportion_base::names::nearest;
 use apportion_base::quantity::{Quantity, Unit};
 use toml::Value;
 
-use super::at::{At, Choices, ListOrTable, in_order};
+use super::at::{At, Choices, in_order};
 use super::context::{Context, Fault, number, shown};
 use super::error::Problem;
-use super::output_table::OutputTable;
+use super::output_table::{OutputTable, Outputs};
 use super::outputs::output_table;
-use super::sections::{ExpressionSection, FactorSection, Outputs};
+use super::sections::{ExpressionSection, FactorSection};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
 use super::units::factor_inputs;
 
 /// Returns the inputs of formulas: the factors of the study, each in its own unit.
-pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+pub fn inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     factors.iter().try_for_each(|section| refuse_name(context, "factor", &section.get_ref().name))?;
     factor_inputs(context, factors)
 }
 
-fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> Result<(), Fault> {
+fn refuse_name(context: &Context, what: &'static str, name: &At<String>) -> Result<(), Fault> {
     let reason = match name.get_ref() {
         name if !Expression::is_name(name) => "letters, digits and '_', not beginning with a digit (formulas use it)",
         name if Expression::is_reserved(name) => "not a function or number of the formula language",
@@ -36,7 +36,7 @@ fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> 
 
 /// Returns the formulas with their constants, and notes on unused names.
 pub(super) fn subject(
-    context: &Context<'_>,
+    context: &Context,
     outputs: Option<&At<Outputs>>,
     section: Option<&At<ExpressionSection>>,
     space: &Space,
@@ -44,7 +44,7 @@ pub(super) fn subject(
     let missing = Problem::missing("formula", "outputs.y = \"x1 + 2*x2\", above the first table");
     let Some(outputs) = outputs else { return Err(context.fault(0..0, missing)) };
     let entries = match outputs.get_ref() {
-        ListOrTable::Table(table) if !table.is_empty() => in_order(table),
+        Outputs::Table(table) if !table.is_empty() => in_order(table),
         _ => return Err(context.fault(outputs.span(), missing)),
     };
     let none = Choices::new();
@@ -58,7 +58,7 @@ pub(super) fn subject(
     Ok((ExpressionSubject { formulas, constants }, notes))
 }
 
-fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {
+fn constants(context: &Context, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {
     let mut constants = Vec::with_capacity(table.len());
     for (name, value) in in_order(table) {
         refuse_name(context, "constant", name)?;
@@ -82,7 +82,7 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
 }
 
 fn formula(
-    context: &Context<'_>,
+    context: &Context,
     name: &At<String>,
     value: &At<Value>,
     space: &Space,
@@ -122,12 +122,12 @@ fn formula(
     Ok(Formula { name: name.get_ref().clone(), unit, expression })
 }
 
-fn refuse_formula<T>(context: &Context<'_>, name: &At<String>, value: &At<Value>, found: String) -> Result<T, Fault> {
+fn refuse_formula<T>(context: &Context, name: &At<String>, value: &At<Value>, found: String) -> Result<T, Fault> {
     context.refuse(value, name.get_ref(), "a formula, or { formula = \"...\", unit = \"...\" }", found)
 }
 
 /// Returns the position of a part of a formula in the file: exactly, unless the text is written with escapes.
-fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<usize>) -> Range<usize> {
+fn place(context: &Context, value: &At<Value>, formula: &str, part: Range<usize>) -> Range<usize> {
     let span = value.span();
     match context.text.get(span.clone()).and_then(|written| written.find(formula)) {
         Some(offset) => {

@@ -12,7 +12,7 @@ use super::sections::FactorSection;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
 
 /// Returns the space of the factors: by default all inputs with their own distributions, if each has one.
-pub(super) fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
+pub(super) fn space(context: &Context, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
     let mut factors = Vec::new();
     if sections.is_empty() {
         for input in inputs {
@@ -41,7 +41,7 @@ fn new_factor(input: &Input, unit: Unit, distribution: Distribution) -> Result<F
     Ok(factor)
 }
 
-fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
+fn factor(context: &Context, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
     let fields = section.get_ref();
     let unit = unit_of_factor(context, fields, input)?;
     let distribution = match &input.distribution {
@@ -97,7 +97,7 @@ fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f
 }
 
 /// Returns the unit of a factor, which must be of the kind that the model requires.
-fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
+fn unit_of_factor(context: &Context, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
     let (name, example) = (format!("factor `{}`", input.name), format!("unit = \"{}\"", input.unit));
     let Some(typed) = &fields.unit else {
         if input.unit.compatible(&Unit::dimensionless()) {
@@ -113,7 +113,7 @@ fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, input: &Input) 
 }
 
 /// Refuses a unit other than that of the input for the input's default distribution.
-fn refuse_other_unit(context: &Context<'_>, fields: &FactorSection, unit: &Unit, input: &Input) -> Result<(), Fault> {
+fn refuse_other_unit(context: &Context, fields: &FactorSection, unit: &Unit, input: &Input) -> Result<(), Fault> {
     match &fields.unit {
         Some(typed) if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != input.unit.to_si(x)) => {
             let (factor, unit) = (&input.name, typed.get_ref());

@@ -13,11 +13,11 @@ use super::models::TABLES;
 use super::sections::StudyFile;
 
 /// A function that makes the study of a text.
-type Resolve = fn(&Context<'_>) -> Result<(Study, Vec<String>), Fault>;
+type Resolve = fn(&Context) -> Result<(Study, Vec<String>), Fault>;
 
 /// Returns the low-fidelity models of `file` for its model `subject`. `resolve` makes a study of each one in the file.
 pub(super) fn low_fidelity_models(
-    context: &Context<'_>,
+    context: &Context,
     file: &StudyFile,
     subject: &dyn Subject,
     resolve: Resolve,
@@ -55,17 +55,15 @@ fn named(subject: &dyn Subject, name: &str) -> Result<LowFidelity, Problem> {
 }
 
 /// Returns the low-fidelity model that the study describes, with the keys of `table` in place of those of the study.
-fn described(context: &Context<'_>, table: &toml::Table, resolve: Resolve) -> Result<LowFidelity, Problem> {
+fn described(context: &Context, table: &toml::Table, resolve: Resolve) -> Result<LowFidelity, Problem> {
     let Some(name) = table.get("name").and_then(toml::Value::as_str) else {
         return Err(wrong("low", "a table with a name, as in { name = \"coarse\", .. }", "one without".to_owned()));
     };
     if let Some(expected) = refused_name(name) {
         return Err(wrong("name of a cheaper model", &expected, format!("\"{name}\"")));
     }
-    let study = match with_keys(context.text, table) {
-        Ok(text) => {
-            resolve(&Context { path: context.path.clone(), text: &text }).map_err(|fault| fault.problem.to_string())
-        }
+    let study = match with_keys(&context.text, table) {
+        Ok(text) => resolve(&Context { path: context.path.clone(), text }).map_err(|fault| fault.problem.to_string()),
         Err(_) => Err("the study cannot be rewritten".to_owned()),
     };
     let (study, _) = study.map_err(|reason| Problem::new(format!("cheaper model `{name}`: {reason}")))?;

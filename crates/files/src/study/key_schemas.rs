@@ -66,6 +66,12 @@ pub(super) fn name_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> S
     schemars::json_schema!({ "anyOf": [{ "type": "string" }, table] })
 }
 
+/// Returns the schema of a list of texts, or a table of that type.
+pub(super) fn list_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    let table = generator.subschema_for::<T>();
+    schemars::json_schema!({ "anyOf": [{ "type": "array", "items": { "type": "string" }, "minItems": 1 }, table] })
+}
+
 /// Returns the schema of `[function]`: the parameters of all functions.
 pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
     let number_or_list = json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);

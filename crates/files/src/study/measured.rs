@@ -15,7 +15,7 @@ use crate::exchange::{ColumnKind, ReadOptions, number, table_of_bytes};
 /// Reads one column of numbers from a table, whose path is relative to the study file: the column of that name, or the
 /// only one. A text whose first line is a number has no header.
 pub(super) fn read_measured(
-    context: &Context<'_>,
+    context: &Context,
     file: &At<String>,
     column: Option<&At<String>>,
 ) -> Result<(Vec<f64>, MeasuredFile), Fault> {
@@ -57,7 +57,7 @@ pub(super) fn read_measured(
     Ok((values, source))
 }
 
-fn unusable(context: &Context<'_>, file: &At<String>, path: &Path, reason: &dyn Display) -> Fault {
+fn unusable(context: &Context, file: &At<String>, path: &Path, reason: &dyn Display) -> Fault {
     let help = "the file must be a CSV table, or have one number per line; its path is relative to the study";
     context.fault(file.span(), Problem::with_help(format!("{}: {reason}", path.display()), help))
 }

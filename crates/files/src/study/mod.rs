@@ -5,7 +5,6 @@ mod analysis;
 mod at;
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
 mod command;
-mod command_section;
 mod constants;
 mod context;
 mod dependence;
@@ -29,11 +28,12 @@ mod synonyms;
 mod template;
 mod units;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use apportion::study::{Study, StudySource};
 use apportion_base::digest::sha256;
 use apportion_base::files::read_text;
+use context::Context;
 pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;
@@ -73,12 +73,13 @@ pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError
 /// [`StudyError`] with the place in the text and what is expected.
 pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
     let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
-    let context = context::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
+    let is_editable = effective.is_some();
+    let context = Context { path: path.to_owned(), text: effective.unwrap_or_else(|| text.to_owned()) };
     let (study, notes) = resolve::study(&context).map_err(|mut diagnostic| {
         diagnostic.overrides = overrides.to_vec();
         diagnostic
     })?;
-    if effective.is_none() {
+    if !is_editable {
         // The reader accepts whole numbers up to 2^64, the editor up to 2^63, as TOML requires.
         return Err(not_editable(overrides));
     }

@@ -9,9 +9,10 @@ use apportion::space::Space;
 use apportion::study::Subject;
 use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
-use super::at::{At, ListOrTable};
+use super::at::At;
 use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
+use super::output_table::Outputs;
 use super::sections::StudyFile;
 use super::subjects::KnownSubject;
 use super::units::factor_inputs;
@@ -20,7 +21,7 @@ use crate::ModelKind;
 
 /// A study file and the kind of its model.
 pub(super) struct Reading<'a> {
-    pub context: &'a Context<'a>,
+    pub context: &'a Context,
     pub file: &'a StudyFile,
     pub kind: ModelKind,
 }
@@ -151,7 +152,7 @@ fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
     let Reading { context, kind, .. } = reading;
     let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
     let names = match key.get_ref() {
-        ListOrTable::List(names) if !names.is_empty() => names,
+        Outputs::Names(names) if !names.is_empty() => names,
         _ => return Err(context.fault(key.span(), Problem::missing("names of outputs", example))),
     };
     let outputs = kind.outputs();

@@ -1,9 +1,46 @@
-//! The table of an output as typed: of a formula, or of a program or external model.
+//! The key `outputs` as typed: names, or a table with an entry for each output.
+
+use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
+use super::at::{At, Choices};
 use crate::Match;
+
+/// Names of outputs, or a table with one entry for each.
+#[derive(Debug)]
+pub(super) enum Outputs {
+    Names(Vec<At<String>>),
+    Table(Choices),
+}
+
+impl<'de> Deserialize<'de> for Outputs {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OutputsVisitor)
+    }
+}
+
+/// A visitor, because an untagged enum would lose the positions of the values.
+struct OutputsVisitor;
+
+impl<'de> Visitor<'de> for OutputsVisitor {
+    type Value = Outputs;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list in square brackets, or a table")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Outputs, A::Error> {
+        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Outputs::Names)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Outputs, A::Error> {
+        Deserialize::deserialize(MapAccessDeserializer::new(table)).map(Outputs::Table)
+    }
+}
 
 /// The table of an output: its formula, the place of its number after a run, the axis of a series.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]

@@ -11,12 +11,12 @@ use regex_lite::Regex;
 use serde_json::{Map, Value as Json, json};
 use toml::Value;
 
-use super::at::{At, ListOrTable, in_order};
+use super::at::{At, in_order};
 use super::context::{Context, Fault, shown, wrong};
 use super::error::Problem;
-use super::output_table::OutputTable;
+use super::output_table::{OutputTable, Outputs};
 use super::parse;
-use super::sections::{FactorSection, Outputs};
+use super::sections::FactorSection;
 use super::units::factor_inputs;
 use crate::{CommandOutput, Match, Pick, PickMethod, Source};
 
@@ -56,28 +56,24 @@ impl StatedOutputs {
 }
 
 /// Reads the table `typed`, which is the value of an output.
-pub(super) fn output_table(
-    context: &Context<'_>,
-    value: &At<Value>,
-    typed: &toml::Table,
-) -> Result<OutputTable, Fault> {
+pub(super) fn output_table(context: &Context, value: &At<Value>, typed: &toml::Table) -> Result<OutputTable, Fault> {
     context.at(value, typed.clone().try_into().map_err(|error| parse::problem(&error)))
 }
 
 /// Returns the outputs that the study states.
-pub(super) fn stated_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<StatedOutputs, Fault> {
+pub(super) fn stated_outputs(context: &Context, key: Option<&At<Outputs>>) -> Result<StatedOutputs, Fault> {
     let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
     let Some(key) = key else { return Err(context.fault(0..0, missing)) };
     let mut all = StatedOutputs::default();
     match key.get_ref() {
-        ListOrTable::List(names) => {
+        Outputs::Names(names) => {
             for name in names {
                 let (name, unit) = (name.get_ref().clone(), Unit::dimensionless());
                 all.stated.insert(name.clone(), json!({ "unit": unit.symbol() }));
                 all.outputs.push(CommandOutput { name, unit, pick: None });
             }
         }
-        ListOrTable::Table(table) => {
+        Outputs::Table(table) => {
             for (name, value) in in_order(table) {
                 let (output, axis, stated) = output(context, name, value)?;
                 if output.pick.is_some() && all.first_pick.is_none() {
@@ -100,7 +96,7 @@ pub(super) fn stated_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -
 
 /// Reads an output, its axis if it is a series, and its settings for results.
 fn output(
-    context: &Context<'_>,
+    context: &Context,
     name: &At<String>,
     value: &At<Value>,
 ) -> Result<(CommandOutput, Option<SeriesAxis>, Json), Fault> {
@@ -183,7 +179,7 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
 }
 
 /// Returns the inputs of the model: the factors of the study, each in its own unit.
-pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+pub fn inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     for section in factors {
         let name = &section.get_ref().name;
         if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
@@ -196,7 +192,7 @@ pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Ve
 
 /// Returns the outputs that the study states.
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
-pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
+pub(super) fn subject(context: &Context, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
     let StatedOutputs { outputs, series, first_pick, .. } = stated_outputs(context, outputs)?;
     if let Some(place) = first_pick {
         let (key, expected) =

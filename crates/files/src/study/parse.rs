@@ -18,8 +18,8 @@ use super::sections::{FactorSection, StudyFile};
 use super::synonyms::suggestion_for;
 
 /// Parses the text of `context`.
-pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
-    let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
+pub(super) fn study_file(context: &Context) -> Result<StudyFile, Fault> {
+    let mut root = DeTable::parse(&context.text).map_err(|error| syntax(context, &error))?;
     normalise(context, root.get_mut())?;
     let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
     join_factors(context, &mut file)?;
@@ -31,7 +31,7 @@ pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
     Ok(file)
 }
 
-fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+fn syntax(context: &Context, error: &toml::de::Error) -> Fault {
     context.fault(error.span().unwrap_or(0..0), problem(error))
 }
 
@@ -82,23 +82,27 @@ fn in_words(message: &str) -> String {
     WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
 }
 
-/// Converts `root`, a study file, to the form of `StudyFile`: `noise = "seed"` is `noise.name = "seed"`.
-fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+/// Converts `root`, a study file, to the form of `StudyFile`: `noise = "seed"` is `noise.name = "seed"`, and
+/// `command = ["./model"]` is `command.program = ["./model"]`.
+fn normalise(context: &Context, root: &mut DeTable<'_>) -> Result<(), Fault> {
     if let Some((key, _)) = root.get_key_value("factor").filter(|(_, value)| value.get_ref().is_table()) {
         let right = "factors are lines of the table `[factors]`, or tables `[[factor]]`";
         return Err(context.fault(key.span(), Problem::misplaced("factor", right)));
     }
-    if let Some(noise) = root.get_mut("noise").filter(|noise| noise.get_ref().is_str()) {
-        let key = Spanned::new(noise.span(), Cow::Borrowed("name"));
-        let name = Spanned::new(noise.span(), noise.get_ref().clone());
-        *noise.get_mut() = DeValue::Table(DeTable::from_iter([(key, name)]));
+    for (table, key) in [("noise", "name"), ("command", "program")] {
+        let Some(typed) = root.get_mut(table) else { continue };
+        if typed.get_ref().is_str() && table == "noise" || typed.get_ref().is_array() && table == "command" {
+            let key = Spanned::new(typed.span(), Cow::Borrowed(key));
+            let value = Spanned::new(typed.span(), typed.get_ref().clone());
+            *typed.get_mut() = DeValue::Table(DeTable::from_iter([(key, value)]));
+        }
     }
     Ok(())
 }
 
 /// Joins the factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the
 /// order of the file; the seed of a stochastic model is the last one.
-fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Result<(), Fault> {
+fn join_factors(context: &Context, file: &mut StudyFile) -> Result<(), Fault> {
     if let Some(factor) = file.factor.iter().find(|factor| factor.get_ref().name.span().is_empty()) {
         return Err(context.fault(factor.span(), Problem::new("missing field `name`")));
     }

@@ -19,7 +19,7 @@ use super::{analysis, dependence, factors, fidelity};
 use crate::ModelKind;
 
 /// Returns the study of the text of `context`, and notes on keys without effect.
-pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault> {
+pub(super) fn study(context: &Context) -> Result<(Study, Vec<String>), Fault> {
     let file = study_file(context)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
@@ -43,7 +43,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault
 }
 
 /// Returns the position in the file that `error` is about.
-fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<usize> {
+fn place(context: &Context, file: &StudyFile, error: &BuildError) -> Range<usize> {
     let keys: &[&str] = match error {
         BuildError::Wrong { key, .. } => &[key],
         BuildError::Design(DesignError::NoReplicates) => &["replicates"],
@@ -54,7 +54,7 @@ fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<u
         BuildError::Name { name, .. } | BuildError::Repeated { name, .. } => return place_of_name(context, file, name),
         _ => &[],
     };
-    let Ok(root) = DeTable::parse(context.text) else { return 0..0 };
+    let Ok(root) = DeTable::parse(&context.text) else { return 0..0 };
     let root = root.get_ref();
     let mut tables = vec![root];
     tables.extend(["design", "analysis", "fidelity"].iter().filter_map(|table| root.get(*table)?.get_ref().as_table()));
@@ -63,7 +63,7 @@ fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<u
 }
 
 /// Returns the position of a refused name: the last one of a factor, or else the first occurrence.
-fn place_of_name(context: &Context<'_>, file: &StudyFile, name: &str) -> Range<usize> {
+fn place_of_name(context: &Context, file: &StudyFile, name: &str) -> Range<usize> {
     for factor in file.factor.iter().rev().map(At::get_ref) {
         if let Some(typed) = factor.group.iter().chain([&factor.name]).find(|typed| typed.get_ref() == name) {
             return typed.span();
@@ -73,7 +73,7 @@ fn place_of_name(context: &Context<'_>, file: &StudyFile, name: &str) -> Range<u
     context.text.find(name).map_or(0..0, |start| start..start + name.len())
 }
 
-fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
+fn model_kind(context: &Context, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
     let Some(model) = model else { return Ok(ModelKind::DEFAULT) };
     ModelKind::from_name(model.get_ref()).ok_or_else(|| {
         let name = model.get_ref();
@@ -89,7 +89,7 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
 }
 
 /// Refuses tables of other models: `[afm]`, `[function]`, `[expression]` and `command` belong to one kind each.
-fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
+fn refuse_tables_of_others(context: &Context, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
     for table in TABLES.iter().filter(|table| table.name != kind.table) {
         let Some(span) = (table.span)(file) else { continue };
         let owner = match table.name {

@@ -1,6 +1,5 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text, once
-//! [`resolve`](super::resolve) has brought what can be written in several ways to one. The comments on its fields are what
-//! editors show, by the schema.
+//! The study file as TOML sees it, every value with its place in the text, after [`parse`](super::parse) has converted what
+//! can be written in several ways. Editors show the comments on its fields, by the schema.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,10 +19,11 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde_json::json;
 
-use super::at::{At, Choices, ListOrTable};
-use super::command_section::CommandKey;
+use super::at::{At, Choices};
 use super::context::names_of;
 use super::key_schemas;
+use super::output_table::Outputs;
+use crate::Protocol;
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -55,7 +55,8 @@ pub(super) struct StudyFile {
     pub expression: Option<At<ExpressionSection>>,
     /// The program that is the model: a list of the program and its arguments, or a table.
     #[serde(default)]
-    pub command: Option<At<CommandKey>>,
+    #[schemars(schema_with = "key_schemas::list_or_table::<CommandSection>")]
+    pub command: Option<At<CommandSection>>,
     /// The noise of a stochastic model: the name of the seed that it gets with every row, or a table.
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
@@ -85,8 +86,46 @@ pub(super) struct StudyFile {
     pub factors: BTreeMap<At<String>, At<FactorSection>>,
 }
 
-/// Names of outputs, or a table with one entry for each.
-pub(super) type Outputs = ListOrTable<Choices>;
+/// A program of your own as the model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a list in square brackets, or a table")]
+pub(super) struct CommandSection {
+    /// The program and its arguments; no shell reads them.
+    #[schemars(length(min = 1))]
+    pub program: Option<At<Vec<At<String>>>>,
+    /// The format of rows and answers of a program that is kept alive.
+    #[schemars(extend("enum" = names_of::<Protocol>(), "default" = "csv"))]
+    pub protocol: Option<At<String>>,
+    /// Number of processes at the same time; by default the number of cores.
+    #[schemars(range(min = 1, max = 1024))]
+    pub workers: Option<At<u64>>,
+    /// Time limit for a row, as in "60 s"; by default none.
+    pub timeout: Option<At<String>>,
+    /// How often a row is retried after the program crashed, hung or printed an invalid answer; once by default.
+    #[schemars(range(max = 100))]
+    pub retries: Option<At<u64>>,
+    /// Working directory of the program, relative to the study; by default the folder of the study.
+    pub directory: Option<At<String>>,
+    /// Environment variables that are set for the program.
+    #[serde(default)]
+    pub env: BTreeMap<String, String>,
+    /// Other files that its answers depend on, such as data, relative to the study: recorded answers from before a change of these
+    /// files are not reused. The program and files among its arguments are included; list what they import.
+    #[serde(default)]
+    pub depends_on: Vec<At<String>>,
+    /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
+    /// row, in its own directory.
+    pub template: Option<At<String>>,
+    /// Name of the input file in the directory of a run; by default that of the template.
+    pub input: Option<At<String>>,
+    /// Files that are copied to the directory of each run, relative to the study.
+    #[serde(default)]
+    pub files: Vec<At<String>>,
+    /// Whether paths in this table may lead outside the study's folder.
+    pub files_outside: Option<At<bool>>,
+    /// Folder that keeps the directories of runs, relative to the study; by default each is removed after its run.
+    pub keep: Option<At<String>>,
+}
 
 /// Constants of formulas.
 #[derive(Debug, Default, Deserialize, JsonSchema)]

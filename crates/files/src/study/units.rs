@@ -9,7 +9,7 @@ use super::error::Problem;
 use super::sections::FactorSection;
 
 /// Returns the inputs of a model whose only inputs are the factors of the study, each in its own unit.
-pub(super) fn factor_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+pub(super) fn factor_inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     let mut inputs = Vec::with_capacity(factors.len());
     for fields in factors.iter().map(At::get_ref) {
         let unit = match &fields.unit {
@@ -45,7 +45,7 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
 }
 
 /// Parses a time above 0, in seconds.
-pub(super) fn seconds(context: &Context<'_>, key: &str, typed: &At<String>) -> Result<f64, Fault> {
+pub(super) fn seconds(context: &Context, key: &str, typed: &At<String>) -> Result<f64, Fault> {
     let quantity = context.at(typed, Quantity::parse(typed.get_ref()))?;
     let seconds = quantity.to_si();
     if quantity.unit.dimension() != Dimension::TIME || !(seconds > 0.0 && seconds.is_finite()) {

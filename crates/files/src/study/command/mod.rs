@@ -9,12 +9,12 @@ use std::time::Duration;
 use apportion::space::Space;
 use serde_json::{Value, json};
 
-use super::at::{At, ListOrTable};
-use super::command_section::{CommandKey, CommandSection};
+use super::at::At;
 use super::context::{Context, Fault, PathScope, folder, optional_choice, refuse_outside_of_run, resolve, wrong};
 use super::error::Problem;
+use super::output_table::Outputs;
 use super::outputs::stated_outputs;
-use super::sections::Outputs;
+use super::sections::CommandSection;
 use super::subjects::CommandSubject;
 use super::units::seconds;
 use crate::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
@@ -25,19 +25,14 @@ pub(super) fn no_program() -> Problem {
 
 /// Returns the program with its settings, and notes on keys without effect.
 pub(super) fn subject(
-    context: &Context<'_>,
-    key: Option<&At<CommandKey>>,
+    context: &Context,
+    key: Option<&At<CommandSection>>,
     outputs: Option<&At<Outputs>>,
     space: &Space,
 ) -> Result<(CommandSubject, Vec<String>), Fault> {
     let Some(key) = key else { return Err(context.fault(0..0, no_program())) };
-    let default = CommandSection::default();
-    let (section, program) = match key.get_ref() {
-        ListOrTable::List(program) => (&default, program.as_slice()),
-        ListOrTable::Table(section) => {
-            (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
-        }
-    };
+    let section = key.get_ref();
+    let program = section.program.as_ref().map_or(&[][..], |program| program.get_ref());
     if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
         let span = program.first().map_or_else(|| key.span(), At::span);
         return Err(context.fault(span, no_program()));
@@ -105,7 +100,7 @@ fn path_scope(section: &CommandSection) -> PathScope {
 }
 
 /// Returns the typed path of an existing `file` or `directory`.
-fn existing(context: &Context<'_>, section: &CommandSection, typed: &At<String>, what: &str) -> Result<PathBuf, Fault> {
+fn existing(context: &Context, section: &CommandSection, typed: &At<String>, what: &str) -> Result<PathBuf, Fault> {
     let path = resolve(context, typed, path_scope(section))?;
     let exists = if what == "file" { path.is_file() } else { path.is_dir() };
     if exists {
@@ -117,11 +112,7 @@ fn existing(context: &Context<'_>, section: &CommandSection, typed: &At<String>,
 }
 
 /// Returns the protocol of a program that is kept alive; keys of the other form are refused.
-fn protocol(
-    context: &Context<'_>,
-    section: &CommandSection,
-    first_pick: Option<&Range<usize>>,
-) -> Result<Protocol, Fault> {
+fn protocol(context: &Context, section: &CommandSection, first_pick: Option<&Range<usize>>) -> Result<Protocol, Fault> {
     const RUNS: &str = "used only with `template`, for a program that runs once for each row";
     let spans = [
         ("input", section.input.as_ref().map(At::span)),
@@ -137,8 +128,8 @@ fn protocol(
 
 /// Refuses a factor, or an output of JSON, with the name of the row number.
 fn refuse_number(
-    context: &Context<'_>,
-    key: &At<CommandKey>,
+    context: &Context,
+    key: &At<CommandSection>,
     protocol: Protocol,
     space: &Space,
     outputs: &[CommandOutput],
@@ -154,7 +145,7 @@ fn refuse_number(
 }
 
 fn number_within(
-    context: &Context<'_>,
+    context: &Context,
     key: &str,
     typed: Option<&At<u64>>,
     range: RangeInclusive<u64>,

@@ -9,9 +9,9 @@ use apportion_base::names::nearest;
 
 use super::{existing, path_scope};
 use crate::study::at::At;
-use crate::study::command_section::{CommandKey, CommandSection};
 use crate::study::context::{Context, Fault, resolve, wrong};
 use crate::study::error::Problem;
+use crate::study::sections::CommandSection;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
 /// Names of files that the engine writes in the directory of a run.
@@ -19,7 +19,7 @@ const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
 
 /// Returns the form, and notes on factors that the template does not use.
 pub(super) fn form(
-    context: &Context<'_>,
+    context: &Context,
     section: &CommandSection,
     template: &At<String>,
     space: &Space,
@@ -41,8 +41,8 @@ pub(super) fn form(
 
 /// Refuses an output that does not say where its number is after a run.
 pub(super) fn refuse_without_pick(
-    context: &Context<'_>,
-    key: &At<CommandKey>,
+    context: &Context,
+    key: &At<CommandSection>,
     outputs: &[CommandOutput],
 ) -> Result<(), Fault> {
     let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
@@ -81,7 +81,7 @@ fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-fn files(context: &Context<'_>, section: &CommandSection, input: &str) -> Result<Vec<PathBuf>, Fault> {
+fn files(context: &Context, section: &CommandSection, input: &str) -> Result<Vec<PathBuf>, Fault> {
     let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
     for typed in &section.files {
         let path = existing(context, section, typed, "file")?;
