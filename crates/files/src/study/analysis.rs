@@ -10,16 +10,13 @@ use apportion::study::{AnalysisOptions, RepeatedSubject, Subject, Target};
 
 use super::at::{At, copied};
 use super::context::{Context, Fault, choice, optional_choice, unknown_name};
+use super::reading::Reading;
 use super::sections::StudyFile;
 use super::units::seconds;
 
 /// Applies the tables to `builder`.
-pub(super) fn apply_tables(
-    context: &Context,
-    file: &StudyFile,
-    space: &Space,
-    builder: &mut StudyBuilder,
-) -> Result<(), Fault> {
+pub(super) fn apply_tables(reading: &Reading, space: &Space, builder: &mut StudyBuilder) -> Result<(), Fault> {
+    let Reading { context, file, .. } = reading;
     let section = &file.design;
     builder.sampler = optional_choice(context, &section.sampler, "sampler")?.unwrap_or(builder.sampler);
     builder.length.base_samples = copied(&section.base_samples);
@@ -31,7 +28,7 @@ pub(super) fn apply_tables(
     };
     builder.replicates = copied(&section.replicates);
     builder.seed = copied(&section.seed).unwrap_or(builder.seed);
-    builder.analysis = Some(options(context, file, builder.sampler, space)?);
+    builder.analysis = Some(options(reading, builder.sampler, space)?);
     Ok(())
 }
 
@@ -39,7 +36,8 @@ fn set<T: Copy>(to: &mut T, typed: &Option<At<T>>) {
     *to = copied(typed).unwrap_or(*to);
 }
 
-fn options(context: &Context, file: &StudyFile, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
+fn options(reading: &Reading, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
+    let Reading { context, file, .. } = reading;
     let section = &file.analysis;
     let mut options = AnalysisOptions::for_sampler(sampler);
     set(&mut options.second_order, &section.second_order);
@@ -82,8 +80,7 @@ const MAX_REPETITIONS: u64 = 1000;
 
 /// Returns the subject with the study's number of repetitions of each row.
 pub(super) fn repeated(
-    context: &Context,
-    file: &StudyFile,
+    Reading { context, file, .. }: &Reading,
     subject: Arc<dyn Subject>,
     space: &Space,
 ) -> Result<Arc<dyn Subject>, Fault> {

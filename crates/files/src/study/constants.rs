@@ -11,6 +11,7 @@ use super::at::{At, Choices};
 use super::context::{Context, Fault, named, names_of, number, shown, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
+use super::reading::Reading;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
 
 /// Reads the table into a scene and options, starting from the defaults. Factors of `space` must not be fixed.
@@ -174,13 +175,11 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
         .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value.to_string()))
 }
 
-/// Returns the function with the parameters of the table.
-pub(super) fn known_function(
-    context: &Context,
-    answer: &'static KnownAnswer,
-    table: Option<&At<Choices>>,
-) -> Result<KnownFunction, Fault> {
-    let Some(table) = table else { return Ok(answer.default_function()) };
+/// Returns the function with the parameters of its table; `None` for models that are none.
+pub(super) fn known_function(reading: &Reading) -> Result<Option<KnownFunction>, Fault> {
+    let Reading { context, file, kind } = reading;
+    let Some(answer) = kind.known else { return Ok(None) };
+    let Some(table) = &file.function else { return Ok(Some(answer.default_function())) };
     let mut parameters = Vec::new();
     for (key, value) in table.get_ref() {
         let name = key.get_ref();
@@ -192,7 +191,7 @@ pub(super) fn known_function(
         };
         parameters.push((name.clone(), parameter));
     }
-    answer.with(&parameters).map_err(|error| {
+    answer.with(&parameters).map(Some).map_err(|error| {
         let typed = table.get_ref().iter().find(|(key, _)| *key.get_ref() == error.parameter);
         let span = typed.map_or(table.span(), |(_, value)| value.span());
         context.fault(span, Problem::new(error.to_string()))

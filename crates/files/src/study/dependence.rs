@@ -6,10 +6,11 @@ use super::analysis::factor_index;
 use super::at::At;
 use super::context::{Context, Fault, choice, wrong};
 use super::measured::read_measured;
-use super::sections::{Correlation, DependenceSection, StudyFile};
+use super::reading::Reading;
+use super::sections::{Correlation, DependenceSection};
 
 /// Returns the dependences of `file`.
-pub(super) fn dependences(context: &Context, file: &StudyFile, space: &Space) -> Result<Vec<Dependence>, Fault> {
+pub(super) fn dependences(Reading { context, file, .. }: &Reading, space: &Space) -> Result<Vec<Dependence>, Fault> {
     file.dependence.iter().map(|section| dependence(context, section, space)).collect()
 }
 

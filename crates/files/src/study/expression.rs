@@ -1,6 +1,7 @@
 //! `model = "expression"`: formulas of the factors, one for each output, and constants.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use apportion::model::{Expression, ExpressionProblem, Input, Symbol};
 use apportion::space::Space;
@@ -14,14 +15,16 @@ use super::context::{Context, Fault, number, shown};
 use super::error::Problem;
 use super::output_table::{OutputTable, Outputs};
 use super::outputs::output_table;
-use super::sections::{ExpressionSection, FactorSection};
+use super::reading::{Configured, Reading};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
 use super::units::factor_inputs;
 
 /// Returns the inputs of formulas: the factors of the study, each in its own unit.
-pub fn inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    factors.iter().try_for_each(|section| refuse_name(context, "factor", &section.get_ref().name))?;
-    factor_inputs(context, factors)
+pub(super) fn inputs(reading: &Reading) -> Result<Vec<Input>, Fault> {
+    for section in &reading.file.factor {
+        refuse_name(&reading.context, "factor", &section.get_ref().name)?;
+    }
+    factor_inputs(reading)
 }
 
 fn refuse_name(context: &Context, what: &'static str, name: &At<String>) -> Result<(), Fault> {
@@ -35,27 +38,22 @@ fn refuse_name(context: &Context, what: &'static str, name: &At<String>) -> Resu
 }
 
 /// Returns the formulas with their constants, and notes on unused names.
-pub(super) fn subject(
-    context: &Context,
-    outputs: Option<&At<Outputs>>,
-    section: Option<&At<ExpressionSection>>,
-    space: &Space,
-) -> Result<(ExpressionSubject, Vec<String>), Fault> {
+pub(super) fn subject(Reading { context, file, .. }: &Reading, space: &Space) -> Configured {
     let missing = Problem::missing("formula", "outputs.y = \"x1 + 2*x2\", above the first table");
-    let Some(outputs) = outputs else { return Err(context.fault(0..0, missing)) };
+    let Some(outputs) = &file.outputs else { return Err(context.fault(0..0, missing)) };
     let entries = match outputs.get_ref() {
         Outputs::Table(table) if !table.is_empty() => in_order(table),
         _ => return Err(context.fault(outputs.span(), missing)),
     };
     let none = Choices::new();
-    let table = section.map_or(&none, |section| &section.get_ref().constants);
+    let table = file.expression.as_ref().map_or(&none, |section| &section.get_ref().constants);
     let constants = constants(context, table, space)?;
     let mut formulas = Vec::with_capacity(entries.len());
     for (name, value) in entries {
         formulas.push(formula(context, name, value, space, &constants)?);
     }
     let notes = notes(&formulas, table, space);
-    Ok((ExpressionSubject { formulas, constants }, notes))
+    Ok((Arc::new(ExpressionSubject { formulas, constants }), notes))
 }
 
 fn constants(context: &Context, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {

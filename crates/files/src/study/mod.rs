@@ -20,6 +20,7 @@ mod output_table;
 mod outputs;
 mod overrides;
 mod parse;
+mod reading;
 mod resolve;
 mod schema;
 mod sections;
@@ -75,7 +76,7 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
     let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
     let is_editable = effective.is_some();
     let context = Context { path: path.to_owned(), text: effective.unwrap_or_else(|| text.to_owned()) };
-    let (study, notes) = resolve::study(&context).map_err(|mut diagnostic| {
+    let (study, notes) = resolve::study(context).map_err(|mut diagnostic| {
         diagnostic.overrides = overrides.to_vec();
         diagnostic
     })?;

@@ -2,8 +2,10 @@
 //! a program's numbers after a run.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use apportion::model::{Input, Output, OutputSeries, SeriesAxis, SeriesError};
+use apportion::space::Space;
 use apportion::study::ExternalSubject;
 use apportion_base::names::{SHORT_TEXT, is_short_text};
 use apportion_base::quantity::Unit;
@@ -16,7 +18,7 @@ use super::context::{Context, Fault, shown, wrong};
 use super::error::Problem;
 use super::output_table::{OutputTable, Outputs};
 use super::parse;
-use super::sections::FactorSection;
+use super::reading::{Configured, Reading};
 use super::units::factor_inputs;
 use crate::{CommandOutput, Match, Pick, PickMethod, Source};
 
@@ -61,9 +63,9 @@ pub(super) fn output_table(context: &Context, value: &At<Value>, typed: &toml::T
 }
 
 /// Returns the outputs that the study states.
-pub(super) fn stated_outputs(context: &Context, key: Option<&At<Outputs>>) -> Result<StatedOutputs, Fault> {
+pub(super) fn stated_outputs(Reading { context, file, .. }: &Reading) -> Result<StatedOutputs, Fault> {
     let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
-    let Some(key) = key else { return Err(context.fault(0..0, missing)) };
+    let Some(key) = &file.outputs else { return Err(context.fault(0..0, missing)) };
     let mut all = StatedOutputs::default();
     match key.get_ref() {
         Outputs::Names(names) => {
@@ -179,29 +181,29 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
 }
 
 /// Returns the inputs of the model: the factors of the study, each in its own unit.
-pub fn inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    for section in factors {
+pub(super) fn inputs(reading: &Reading) -> Result<Vec<Input>, Fault> {
+    for section in &reading.file.factor {
         let name = &section.get_ref().name;
         if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
             let expected = "a text without spaces around it (it is the header of a column)";
-            return context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
+            return reading.context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
         }
     }
-    factor_inputs(context, factors)
+    factor_inputs(reading)
 }
 
 /// Returns the outputs that the study states.
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
-pub(super) fn subject(context: &Context, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
-    let StatedOutputs { outputs, series, first_pick, .. } = stated_outputs(context, outputs)?;
+pub(super) fn subject(reading: &Reading, _: &Space) -> Configured {
+    let StatedOutputs { outputs, series, first_pick, .. } = stated_outputs(reading)?;
     if let Some(place) = first_pick {
         let (key, expected) =
             ("regex, column, pointer, file, match", "used only with a program that this program starts");
-        return Err(context.fault(place, wrong(key, expected, "with an external model".to_owned())));
+        return Err(reading.context.fault(place, wrong(key, expected, "with an external model".to_owned())));
     }
     let outputs =
         outputs.into_iter().map(|output| Output::new(output.name, output.unit, "computed outside this program"));
-    Ok(ExternalSubject { outputs: outputs.collect(), series })
+    Ok((Arc::new(ExternalSubject { outputs: outputs.collect(), series }), Vec::new()))
 }
 
 /// Returns the axis of the output `key` from its `table`; `None` if it is not a series.

@@ -12,38 +12,41 @@ use toml::de::DeTable;
 use super::at::At;
 use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
-use super::models::{Reading, TABLES, table_of};
+use super::models::{TABLES, table_of};
 use super::parse::study_file;
-use super::sections::StudyFile;
+use super::reading::Reading;
 use super::{analysis, dependence, factors, fidelity};
 use crate::ModelKind;
 
 /// Returns the study of the text of `context`, and notes on keys without effect.
-pub(super) fn study(context: &Context) -> Result<(Study, Vec<String>), Fault> {
-    let file = study_file(context)?;
-    let kind = model_kind(context, file.model.as_ref())?;
-    refuse_tables_of_others(context, kind, &file)?;
-    let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
+pub(super) fn study(context: Context) -> Result<(Study, Vec<String>), Fault> {
+    let file = study_file(&context)?;
+    let kind = model_kind(&context, file.model.as_ref())?;
+    let reading = Reading { context, file, kind };
+    refuse_tables_of_others(&reading)?;
+    let Reading { context, file, .. } = &reading;
+    let table = table_of(kind);
     let space = factors::space(context, &(table.inputs)(&reading)?, &file.factor)?;
     let (subject, notes) = (table.subject)(&reading, &space)?;
-    let subject = analysis::repeated(context, &file, subject, &space)?;
+    let subject = analysis::repeated(&reading, subject, &space)?;
     let name = match &file.name {
         Some(name) => name.get_ref().clone(),
         None => context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy())),
     };
     let mut builder = StudyBuilder::new(&name, Arc::clone(&subject));
-    analysis::apply_tables(context, &file, &space, &mut builder)?;
+    analysis::apply_tables(&reading, &space, &mut builder)?;
     builder.title = file.title.as_ref().map(|title| title.get_ref().clone());
     builder.factors = space.factors().iter().cloned().map(Ok).collect();
-    builder.dependences = dependence::dependences(context, &file, &space)?;
-    builder.lows = fidelity::low_fidelity_models(context, &file, &*subject, study)?;
-    let study =
-        builder.checked().map_err(|error| context.fault(place(context, &file, &error), Problem::Build(error)))?;
-    Ok((study, notes))
+    builder.dependences = dependence::dependences(&reading, &space)?;
+    builder.lows = fidelity::low_fidelity_models(&reading, &*subject, study)?;
+    match builder.checked() {
+        Ok(study) => Ok((study, notes)),
+        Err(error) => Err(context.fault(place(&reading, &error), Problem::Build(error))),
+    }
 }
 
 /// Returns the position in the file that `error` is about.
-fn place(context: &Context, file: &StudyFile, error: &BuildError) -> Range<usize> {
+fn place(reading: &Reading, error: &BuildError) -> Range<usize> {
     let keys: &[&str] = match error {
         BuildError::Wrong { key, .. } => &[key],
         BuildError::Design(DesignError::NoReplicates) => &["replicates"],
@@ -51,10 +54,10 @@ fn place(context: &Context, file: &StudyFile, error: &BuildError) -> Range<usize
         BuildError::Design(_) => &["base_samples", "runs", "replicates"],
         BuildError::Dependence(_) => &["dependence"],
         BuildError::LowFidelity { .. } | BuildError::Repeated { what: "cheaper model", .. } => &["low"],
-        BuildError::Name { name, .. } | BuildError::Repeated { name, .. } => return place_of_name(context, file, name),
+        BuildError::Name { name, .. } | BuildError::Repeated { name, .. } => return place_of_name(reading, name),
         _ => &[],
     };
-    let Ok(root) = DeTable::parse(&context.text) else { return 0..0 };
+    let Ok(root) = DeTable::parse(&reading.context.text) else { return 0..0 };
     let root = root.get_ref();
     let mut tables = vec![root];
     tables.extend(["design", "analysis", "fidelity"].iter().filter_map(|table| root.get(*table)?.get_ref().as_table()));
@@ -63,14 +66,14 @@ fn place(context: &Context, file: &StudyFile, error: &BuildError) -> Range<usize
 }
 
 /// Returns the position of a refused name: the last one of a factor, or else the first occurrence.
-fn place_of_name(context: &Context, file: &StudyFile, name: &str) -> Range<usize> {
-    for factor in file.factor.iter().rev().map(At::get_ref) {
+fn place_of_name(reading: &Reading, name: &str) -> Range<usize> {
+    for factor in reading.file.factor.iter().rev().map(At::get_ref) {
         if let Some(typed) = factor.group.iter().chain([&factor.name]).find(|typed| typed.get_ref() == name) {
             return typed.span();
         }
     }
     // Escaped names are not found.
-    context.text.find(name).map_or(0..0, |start| start..start + name.len())
+    reading.context.text.find(name).map_or(0..0, |start| start..start + name.len())
 }
 
 fn model_kind(context: &Context, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
@@ -89,7 +92,7 @@ fn model_kind(context: &Context, model: Option<&At<String>>) -> Result<ModelKind
 }
 
 /// Refuses tables of other models: `[afm]`, `[function]`, `[expression]` and `command` belong to one kind each.
-fn refuse_tables_of_others(context: &Context, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
+fn refuse_tables_of_others(Reading { context, file, kind }: &Reading) -> Result<(), Fault> {
     for table in TABLES.iter().filter(|table| table.name != kind.table) {
         let Some(span) = (table.span)(file) else { continue };
         let owner = match table.name {

@@ -6,14 +6,14 @@ use apportion_base::quantity::{Dimension, Domain, Quantity, Unit};
 use super::at::At;
 use super::context::{Context, Fault};
 use super::error::Problem;
-use super::sections::FactorSection;
+use super::reading::Reading;
 
 /// Returns the inputs of a model whose only inputs are the factors of the study, each in its own unit.
-pub(super) fn factor_inputs(context: &Context, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    let mut inputs = Vec::with_capacity(factors.len());
-    for fields in factors.iter().map(At::get_ref) {
+pub(super) fn factor_inputs(reading: &Reading) -> Result<Vec<Input>, Fault> {
+    let mut inputs = Vec::new();
+    for fields in reading.file.factor.iter().map(At::get_ref) {
         let unit = match &fields.unit {
-            Some(typed) => context.at(typed, Unit::parse(typed.get_ref()))?,
+            Some(typed) => reading.context.at(typed, Unit::parse(typed.get_ref()))?,
             None => Unit::dimensionless(),
         };
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());

@@ -4,6 +4,7 @@ mod runs;
 
 use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use apportion::space::Space;
@@ -12,8 +13,8 @@ use serde_json::{Value, json};
 use super::at::At;
 use super::context::{Context, Fault, PathScope, folder, optional_choice, refuse_outside_of_run, resolve, wrong};
 use super::error::Problem;
-use super::output_table::Outputs;
 use super::outputs::stated_outputs;
+use super::reading::{Configured, Reading};
 use super::sections::CommandSection;
 use super::subjects::CommandSubject;
 use super::units::seconds;
@@ -24,13 +25,9 @@ pub(super) fn no_program() -> Problem {
 }
 
 /// Returns the program with its settings, and notes on keys without effect.
-pub(super) fn subject(
-    context: &Context,
-    key: Option<&At<CommandSection>>,
-    outputs: Option<&At<Outputs>>,
-    space: &Space,
-) -> Result<(CommandSubject, Vec<String>), Fault> {
-    let Some(key) = key else { return Err(context.fault(0..0, no_program())) };
+pub(super) fn subject(reading: &Reading, space: &Space) -> Configured {
+    let Reading { context, file, .. } = reading;
+    let Some(key) = &file.command else { return Err(context.fault(0..0, no_program())) };
     let section = key.get_ref();
     let program = section.program.as_ref().map_or(&[][..], |program| program.get_ref());
     if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
@@ -43,11 +40,11 @@ pub(super) fn subject(
         Some(typed) => existing(context, section, typed, "directory")?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
-    let all = stated_outputs(context, outputs)?;
+    let all = stated_outputs(reading)?;
     for Pick { source, .. } in all.outputs.iter().filter_map(|output| output.pick.as_ref()) {
-        if let Source::File(file) = source {
-            let place = outputs.map_or(0..0, At::span);
-            refuse_outside_of_run(context, place, file, path_scope(section))?;
+        if let Source::File(name) = source {
+            let place = file.outputs.as_ref().map_or(0..0, At::span);
+            refuse_outside_of_run(context, place, name, path_scope(section))?;
         }
     }
     let (form, notes) = match &section.template {
@@ -90,7 +87,7 @@ pub(super) fn subject(
         retries: number_within(context, "retries", section.retries.as_ref(), 0..=100)?
             .map_or(1, |number| number as u32),
     };
-    Ok((CommandSubject { settings, stated, depends_on }, notes))
+    Ok((Arc::new(CommandSubject { settings, stated, depends_on }), notes))
 }
 
 /// Returns how far the paths of the study may lead.
