@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 use apportion_base::text::seconds;
-use session::{LONGEST, Lookup, Rows, Session};
+use session::{LONGEST, Lookup, MAX_PENDING, Rows, Session};
 
 use super::process::{Event, Process};
 use super::program::ended_in_words;
@@ -28,6 +28,9 @@ const QUIET: Duration = Duration::from_secs(2);
 const TIMES: u32 = 5;
 /// The same before the first reply of all.
 const FIRST_START: Duration = Duration::from_secs(60);
+
+/// How long a program without any reply may be silent before a hint is given.
+const SILENCE: Duration = Duration::from_secs(10);
 
 pub(super) struct KeptAliveWorker<'a> {
     model: &'a CommandModel,
@@ -81,7 +84,7 @@ impl<'a> KeptAliveWorker<'a> {
         while session.credit > 0 && !session.is_closed {
             let mut text = String::new();
             while text.len() < TEXT
-                && (is_ahead && session.has_room() || session.pending.is_empty())
+                && (is_ahead && session.pending.len() < MAX_PENDING || session.pending.is_empty())
                 && let Some(row) = rows.next()
             {
                 if session.sent == 0 {
@@ -105,7 +108,7 @@ impl<'a> KeptAliveWorker<'a> {
                 for line in session.lines(&bytes) {
                     self.handle_line(session, &line, rows)?;
                 }
-                if session.unfinished() > LONGEST {
+                if session.line.len() > LONGEST {
                     return Err(too_long(session));
                 }
             }
@@ -165,7 +168,8 @@ impl<'a> KeptAliveWorker<'a> {
             self.context.messages(),
             &format!("warning: the program printed a line that is not an answer and is ignored: {words}"),
         );
-        session.note_stray(words, line.len());
+        session.strayed += line.len().max(1);
+        session.stray = Some(words);
         if session.strayed > LONGEST { Err(too_long(session)) } else { Ok(()) }
     }
 
@@ -179,7 +183,7 @@ impl<'a> KeptAliveWorker<'a> {
             true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),
             false => FIRST_START,
         };
-        if !state.has_answered() && silent_for > self.model.silence {
+        if !state.has_answered() && silent_for > SILENCE {
             State::send_once(
                 &state.hinted,
                 self.context.messages(),

@@ -107,8 +107,6 @@ pub struct CommandModel {
     series: Vec<OutputSeries>,
     /// The names of all outputs of the program.
     names: Vec<String>,
-    /// How long it may be silent at its first row before a hint is given.
-    silence: Duration,
     state: State,
 }
 
@@ -125,9 +123,6 @@ struct State {
     hinted: AtomicBool,
     strayed: AtomicBool,
 }
-
-/// How long a program without any reply may be silent before a hint is given.
-const SILENCE: Duration = Duration::from_secs(10);
 
 /// Maximum number of rows that may fail before the first reply.
 const MAX_FAILED_FIRST: u32 = 5;
@@ -172,7 +167,7 @@ impl CommandModel {
         let outputs = outputs.collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
         let series = OutputSeries::chosen(&settings.series, &settings.requested);
-        Self { settings, factors, outputs, series, names, silence: SILENCE, state: State::default() }
+        Self { settings, factors, outputs, series, names, state: State::default() }
     }
 }
 

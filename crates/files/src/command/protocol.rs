@@ -41,11 +41,7 @@ named! {
 ///
 /// # Errors
 /// The expected and the found text, if the line has no row number.
-pub fn parse_answer(
-    protocol: Protocol,
-    outputs: &[String],
-    line: &[u8],
-) -> Result<(u64, Result<Vec<f64>, String>), String> {
+pub fn parse_answer(protocol: Protocol, outputs: &[String], line: &[u8]) -> Result<(u64, Answer), String> {
     let text = match std::str::from_utf8(line).map(str::trim) {
         Ok("") => return Err(unexpected(protocol, outputs, "an empty line")),
         Ok(text) => text,

@@ -96,7 +96,7 @@ pub(super) fn repeated(
         _ if file.fidelity.is_some() => "1 with [fidelity]".to_owned(),
         _ => return Ok(Arc::new(RepeatedSubject { subject, seed, repetitions: repetitions as usize })),
     };
-    context.refuse(typed, "repetitions", &expected, repetitions.to_string())
+    context.refuse(typed, "repetitions", &expected, repetitions)
 }
 
 /// Returns the sets of each factor and the noise, from which total indices of the mean over the noise follow, if the

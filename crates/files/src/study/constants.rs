@@ -1,6 +1,8 @@
 //! The tables `[afm]`, with choices by name and constants of the scene with their units, and `[function]`.
 
-use apportion::model::{KnownAnswer, KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
+use std::ops::RangeInclusive;
+
+use apportion::model::{KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
 use apportion::space::Space;
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
 use apportion_base::names::Named;
@@ -48,9 +50,7 @@ fn set_option(options: &mut Options, name: &str, value: &At<Value>) -> Result<bo
         "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref())?,
         "step" => options.step = positive(name, "\"10 ms\"", value.get_ref())?,
         "step_budget" => {
-            let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
-            let budget = budget.filter(|&steps| steps > 0);
-            options.step_budget = budget.ok_or_else(|| wrong(name, "a whole number from 1", shown(value.get_ref())))?;
+            options.step_budget = integer(name, "a whole number from 1", 1..=i64::MAX, value.get_ref())? as u64;
         }
         "adhesion_in_load" => {
             let typed = value.get_ref().as_bool();
@@ -87,10 +87,8 @@ fn history(table: &Table) -> Result<AfmMoments, Problem> {
         match key.as_str() {
             "duration" => duration = positive("history.duration", "\"0.4 s\"", typed)?,
             "points" => {
-                let number = typed.as_integer().and_then(|points| usize::try_from(points).ok());
-                let number = number.filter(|points| (2..=MAX_SERIES_VALUES).contains(points));
-                let expected = "a whole number from 2 to 10000";
-                points = number.ok_or_else(|| wrong("history.points", expected, typed.to_string()))?;
+                let range = 2..=MAX_SERIES_VALUES as i64;
+                points = integer("history.points", "a whole number from 2 to 10000", range, typed)? as usize;
             }
             other => return Err(unknown_key(other, ["duration", "points"])),
         }
@@ -119,6 +117,11 @@ pub(super) fn notes(table: &Choices, options: &Options, has_histories: bool) -> 
         notes.push("`history` has no effect without an output that is one, such as force_history".to_owned());
     }
     notes
+}
+
+fn integer(key: &str, expected: &str, range: RangeInclusive<i64>, value: &Value) -> Result<i64, Problem> {
+    let integer = value.as_integer().filter(|integer| range.contains(integer));
+    integer.ok_or_else(|| wrong(key, expected, shown(value)))
 }
 
 fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<T, Problem> {
@@ -172,7 +175,7 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     };
     number
         .filter(|number| *number > 0.0 && number.is_finite())
-        .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value.to_string()))
+        .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value))
 }
 
 /// Returns the function with the parameters of its table; `None` for models that are none.
@@ -183,8 +186,12 @@ pub(super) fn known_function(reading: &Reading) -> Result<Option<KnownFunction>,
     let mut parameters = Vec::new();
     for (key, value) in table.get_ref() {
         let name = key.get_ref();
+        if answer.parameters.is_empty() {
+            return Err(context.fault(key.span(), Problem::new(ParameterError::unknown(name).to_string())));
+        }
         if answer.parameters.iter().all(|parameter| parameter.name != name) {
-            return Err(context.fault(key.span(), unknown_parameter(answer, name)));
+            let valid = answer.parameters.iter().map(|parameter| parameter.name);
+            return Err(context.fault(key.span(), unknown_key(name, valid)));
         }
         let Some(parameter) = number_or_list(value.get_ref()) else {
             return context.refuse(value, name, "a number or a list of numbers", shown(value.get_ref()));
@@ -196,13 +203,6 @@ pub(super) fn known_function(reading: &Reading) -> Result<Option<KnownFunction>,
         let span = typed.map_or(table.span(), |(_, value)| value.span());
         context.fault(span, Problem::new(error.to_string()))
     })
-}
-
-fn unknown_parameter(answer: &KnownAnswer, name: &str) -> Problem {
-    if answer.parameters.is_empty() {
-        return Problem::new(ParameterError::unknown(name).to_string());
-    }
-    unknown_key(name, answer.parameters.iter().map(|parameter| parameter.name))
 }
 
 fn number_or_list(value: &Value) -> Option<ParameterValue> {

@@ -4,6 +4,7 @@
 //! (`files_outside = true`). Tables of measured values are the exception: they hold only numbers of a column, and are
 //! often next to several studies.
 
+use std::fmt::Display;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
@@ -25,17 +26,17 @@ pub(super) struct Context {
 }
 
 impl Context {
-    pub(super) fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
+    pub fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
         Box::new(Diagnostic::new(&self.path, &self.text, span, problem))
     }
 
     /// Attaches the position of `typed` to the error of `result`.
-    pub(super) fn at<T, V, E: Into<Problem>>(&self, typed: &At<V>, result: Result<T, E>) -> Result<T, Fault> {
+    pub fn at<T, V, E: Into<Problem>>(&self, typed: &At<V>, result: Result<T, E>) -> Result<T, Fault> {
         result.map_err(|problem| self.fault(typed.span(), problem.into()))
     }
 
     /// Returns an error: `key`, with the value `typed`, must be `expected`.
-    pub(super) fn refuse<T, V>(&self, typed: &At<V>, key: &str, expected: &str, found: String) -> Result<T, Fault> {
+    pub fn refuse<T, V>(&self, typed: &At<V>, key: &str, expected: &str, found: impl Display) -> Result<T, Fault> {
         Err(self.fault(typed.span(), wrong(key, expected, found)))
     }
 }
@@ -96,7 +97,7 @@ pub(super) fn shown(value: &Value) -> String {
     }
 }
 
-pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
+pub(super) fn wrong(key: &str, expected: &str, found: impl Display) -> Problem {
     Problem::new(format!("`{key}` must be {expected}, not {found}"))
 }
 

@@ -67,21 +67,21 @@ fn measured_columns(context: &Context, section: &DependenceSection) -> Result<Op
         (None, Some(rows)) => {
             if rows.get_ref().iter().any(|row| row.len() != names.len() || row.iter().any(|x| !x.is_finite())) {
                 let expected = "lists of one finite number for each of `factors`";
-                return context.refuse(rows, "measurements", expected, "others among them".to_owned());
+                return context.refuse(rows, "measurements", expected, "others among them");
             }
             columns.extend((0..names.len()).map(|place| rows.get_ref().iter().map(|row| row[place]).collect()));
             rows.span()
         }
         (Some(_), Some(rows)) => {
             let expected = "either `file` or `measurements`";
-            return context.refuse(rows, "measurements", expected, "both".to_owned());
+            return context.refuse(rows, "measurements", expected, "both");
         }
         (None, None) => return Ok(None),
     };
     let fewest = columns.iter().map(Vec::len).min().unwrap_or(0);
     if fewest < MIN_MEASUREMENTS {
         let expected = format!("at least {MIN_MEASUREMENTS} joint measurements");
-        return Err(context.fault(span, wrong("measurements", &expected, fewest.to_string())));
+        return Err(context.fault(span, wrong("measurements", &expected, fewest)));
     }
     Ok(Some(columns))
 }

@@ -72,7 +72,7 @@ fn constants(context: &Context, table: &Choices, space: &Space) -> Result<Vec<Ex
         let key = name.get_ref();
         let Some(quantity) = quantity.filter(|quantity| quantity.to_si().is_finite()) else {
             let expected = format!("a finite number or a quantity, as in {key} = 7 or {key} = \"169 GPa\"");
-            return context.refuse(value, key, &expected, value.get_ref().to_string());
+            return context.refuse(value, key, &expected, value.get_ref());
         };
         constants.push(ExpressionConstant { name: key.clone(), quantity });
     }
@@ -89,13 +89,13 @@ fn formula(
     let table = match value.get_ref() {
         Value::String(text) => OutputTable { formula: Some(text.clone()), ..OutputTable::default() },
         Value::Table(typed) => output_table(context, value, typed)?,
-        other => return refuse_formula(context, name, value, shown(other)),
+        other => return refuse_formula(context, name, value, &shown(other)),
     };
     let OutputTable { formula: Some(text), unit, .. } = &table else {
-        return refuse_formula(context, name, value, "a table without a formula".to_owned());
+        return refuse_formula(context, name, value, "a table without a formula");
     };
     if table != (OutputTable { formula: Some(text.clone()), unit: unit.clone(), ..OutputTable::default() }) {
-        return refuse_formula(context, name, value, "a table with keys for programs".to_owned());
+        return refuse_formula(context, name, value, "a table with keys for programs");
     }
     let unit = context.at(value, Unit::parse(unit.as_deref().unwrap_or("1")))?;
     let factors = space.factors().iter().enumerate().map(|(number, f)| (f.name.as_str(), Symbol::Input(number)));
@@ -120,7 +120,7 @@ fn formula(
     Ok(Formula { name: name.get_ref().clone(), unit, expression })
 }
 
-fn refuse_formula<T>(context: &Context, name: &At<String>, value: &At<Value>, found: String) -> Result<T, Fault> {
+fn refuse_formula<T>(context: &Context, name: &At<String>, value: &At<Value>, found: &str) -> Result<T, Fault> {
     context.refuse(value, name.get_ref(), "a formula, or { formula = \"...\", unit = \"...\" }", found)
 }
 

@@ -33,7 +33,7 @@ pub(super) fn low_fidelity_models(
         let model = match entry.get_ref() {
             toml::Value::String(name) => named(subject, name),
             toml::Value::Table(table) => described(context, table, resolve),
-            other => Err(wrong("low", "the name of a cheaper model, or a table", other.to_string())),
+            other => Err(wrong("low", "the name of a cheaper model, or a table", other)),
         };
         models.push(LowFidelity { base_samples, ..context.at(entry, model)? });
     }
@@ -56,7 +56,7 @@ fn named(subject: &dyn Subject, name: &str) -> Result<LowFidelity, Problem> {
 /// Returns the low-fidelity model that the study describes, with the keys of `table` in place of those of the study.
 fn described(context: &Context, table: &toml::Table, resolve: Resolve) -> Result<LowFidelity, Problem> {
     let Some(name) = table.get("name").and_then(toml::Value::as_str) else {
-        return Err(wrong("low", "a table with a name, as in { name = \"coarse\", .. }", "one without".to_owned()));
+        return Err(wrong("low", "a table with a name, as in { name = \"coarse\", .. }", "one without"));
     };
     if let Some(expected) = refused_name(name) {
         return Err(wrong("name of a cheaper model", &expected, format!("\"{name}\"")));

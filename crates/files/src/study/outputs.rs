@@ -112,14 +112,13 @@ fn output(
         }
     };
     if table.formula.is_some() {
-        let expected = "only of model = \"expression\"";
-        return context.refuse(value, &format!("{key}.formula"), expected, "of another model".to_owned());
+        return context.refuse(value, &format!("{key}.formula"), "only of model = \"expression\"", "of another model");
     }
     let axis = context.at(value, axis(&key, &table))?;
     let pick = context.at(value, pick(&key, &table))?;
     if axis.is_some() && table.which.is_some() {
         let expected = "used only for a single number: a series takes every match or row, from the first on";
-        return context.refuse(value, &format!("{key}.match"), expected, "with `length`".to_owned());
+        return context.refuse(value, &format!("{key}.match"), expected, "with `length`");
     }
     let unit = table.unit.as_deref().unwrap_or_default();
     if !is_short_text(unit) {
@@ -160,7 +159,7 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
         },
         (None, Some(column), None) => PickMethod::Column(column.clone(), taken),
         (None, None, Some(_)) if which.is_some() => {
-            return Err(wrong(&format!("{key}.match"), "only with `regex` or `column`", "with `pointer`".to_owned()));
+            return Err(wrong(&format!("{key}.match"), "only with `regex` or `column`", "with `pointer`"));
         }
         (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => {
             PickMethod::Pointer(pointer.clone())
@@ -173,9 +172,9 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
         (None, None, None) => {
             let alone = if file.is_some() { "file" } else { "match" };
             let expected = "only with `regex`, `column` or `pointer`";
-            return Err(wrong(&format!("{key}.{alone}"), expected, "without one of them".to_owned()));
+            return Err(wrong(&format!("{key}.{alone}"), expected, "without one of them"));
         }
-        _ => return Err(wrong(key, "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned())),
+        _ => return Err(wrong(key, "a table with one of `regex`, `column`, `pointer`", "one with several")),
     };
     Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), method }))
 }
@@ -199,7 +198,7 @@ pub(super) fn subject(reading: &Reading, _: &Space) -> Configured {
     if let Some(place) = first_pick {
         let (key, expected) =
             ("regex, column, pointer, file, match", "used only with a program that this program starts");
-        return Err(reading.context.fault(place, wrong(key, expected, "with an external model".to_owned())));
+        return Err(reading.context.fault(place, wrong(key, expected, "with an external model")));
     }
     let outputs =
         outputs.into_iter().map(|output| Output::new(output.name, output.unit, "computed outside this program"));
@@ -239,7 +238,7 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
         }
     };
     axis.map(Some).map_err(|error| match error {
-        SeriesError::Length { found } => wrong(&format!("{key}.length"), "2 to 10000 values", found.to_string()),
+        SeriesError::Length { found } => wrong(&format!("{key}.length"), "2 to 10000 values", found),
         SeriesError::Position { place, found } => {
             let found = format!("{found} at place {place}");
             wrong(&format!("{key}.positions"), "finite numbers in rising order", found)

@@ -56,22 +56,14 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
         None => format!("title = {}", toml::Value::String(capitalised(model.description))),
     };
     Ok(format!(
-        "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
-         # `apportion check FILE` explains it and its cost, `apportion run FILE` runs it,\n\
-         # `apportion models {name}` lists all keys and values.\n\n\
-         {title}\nmodel = \"{name}\"\n{model_lines}\n\
-         # The cost is base_samples x (2 + factors) runs: {runs} here. With more of them the intervals are narrower.\n\
-         [design]\n\
-         base_samples = {base_samples}    # or runs = 300 where runs take minutes; or accuracy = 0.01 above all tables\n\
-         seed = {seed}    # the same seed gives the same numbers, on any machine and any number of threads\n\n\
-         # The inputs to compare: uniform from min to max, or distribution = \"normal\" with mean and sd,\n\
-         # and many others (docs/factors.md). Factors that name the same `group` also get joint indices.\n\
-         [factors]\n{lines}",
+        include_str!("../../templates/new/study.toml"),
         name = model.name,
+        title = title,
+        model = model_lines,
         runs = settings.base_samples * (2 + factors.len() as u64),
         base_samples = settings.base_samples,
         seed = settings.seed,
-        lines = factors.concat(),
+        factors = factors.concat(),
     ))
 }
 
@@ -85,16 +77,8 @@ pub fn new_program(request: &TemplateRequest) -> Option<String> {
     // Strings of JSON are also strings of Python.
     let values = factors.iter().map(|name| format!("x[{}]", serde_json::Value::from(name.as_str())));
     let sum = values.collect::<Vec<_>>().join(" + ");
-    let values = vec!["y"; outputs.len()].join(", ");
-    Some(format!(
-        "import csv\nimport sys\n\n\
-         # One line in for each row: its number and the factor values. One line out: the number and the outputs.\n\
-         # Print nothing else, or to sys.stderr.\n\
-         for row in csv.DictReader(sys.stdin):\n    number = row.pop(\"id\")\n    \
-         x = {{name: float(value) for name, value in row.items()}}\n    \
-         y = {sum}\n    print(number, {values}, sep=\",\", flush=True)    # id, {}\n",
-        outputs.join(", ")
-    ))
+    let (values, outputs) = (vec!["y"; outputs.len()].join(", "), outputs.join(", "));
+    Some(format!(include_str!("../../templates/new/my_model.py"), sum = sum, values = values, outputs = outputs))
 }
 
 /// Returns the requested names of factors and outputs, or default ones, for a model that has none.
@@ -116,23 +100,15 @@ fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
         kind if kind == ModelKind::EXPRESSION => toml::Value::String(factors.join(" + ")).to_string(),
         _ => "\"1\"".to_owned(),
     };
-    let lines: String =
-        outputs.iter().map(|output| format!("outputs.{} = {value}\n", bare_or_quoted(output))).collect();
+    let lines: String = outputs.iter().map(|name| format!("outputs.{} = {value}\n", bare_or_quoted(name))).collect();
     let model = match request.model {
-        kind if kind == ModelKind::EXPRESSION => format!(
-            "# Formulas in the factors and the constants, all in SI units.\n{lines}\n[expression]\n\
-             # constants.a = 7    # a number, or a quantity as in \"10 nm\"\n"
-        ),
-        kind if kind == ModelKind::COMMAND => format!(
-            "# What the program prints, in its order, with units.\n{lines}\n\
-             # It is started once for each core and kept alive: it reads one line for each row and prints one.\n\
-             [command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
-             # timeout = \"60 s\"    # for a row, after which the program is started again [default: none]\n"
-        ),
-        _ => format!(
-            "# Units of the outputs. `apportion sample FILE -o design.csv` writes the points, and when the model has computed\n\
-             # its outputs there, `apportion analyze outputs.csv --design design.csv` reads them.\n{lines}"
-        ),
+        kind if kind == ModelKind::EXPRESSION => {
+            format!(include_str!("../../templates/new/expression.toml"), outputs = lines)
+        }
+        kind if kind == ModelKind::COMMAND => {
+            format!(include_str!("../../templates/new/command.toml"), outputs = lines, program = NEW_PROGRAM)
+        }
+        _ => format!(include_str!("../../templates/new/external.toml"), outputs = lines),
     };
     (model, factors.iter().map(|name| format!("{} = {{ min = 0, max = 1 }}\n", bare_or_quoted(name))).collect())
 }

@@ -16,7 +16,8 @@ pub(super) const LONGEST: usize = 1 << 20;
 /// do not begin at 1, so that a line about the program's own steps (`1,0.5`) is not taken for a reply.
 const FIRST_NUMBER: u64 = 100_000;
 const NUMBERS: u64 = 900_000;
-const MAX_PENDING: usize = 100_000;
+/// Maximum number of pending rows.
+pub(super) const MAX_PENDING: usize = 100_000;
 
 pub(super) struct Session {
     pub process: Process,
@@ -34,7 +35,7 @@ pub(super) struct Session {
     pub strayed: usize,
     pub stray: Option<String>,
     /// The received part of the incomplete line.
-    line: Vec<u8>,
+    pub line: Vec<u8>,
 }
 
 /// The meaning of a row number that a program has printed.
@@ -58,11 +59,6 @@ impl Session {
             stray: None,
             line: Vec::new(),
         }
-    }
-
-    /// Returns whether more rows can be sent before it replies.
-    pub(super) fn has_room(&self) -> bool {
-        self.pending.len() < MAX_PENDING
     }
 
     /// Records that a row is sent, and returns its number.
@@ -104,12 +100,6 @@ impl Session {
         took
     }
 
-    /// Records a line of `length` bytes that is not a reply.
-    pub(super) fn note_stray(&mut self, words: String, length: usize) {
-        self.strayed += length.max(1);
-        self.stray = Some(words);
-    }
-
     /// Returns the lines that `bytes` complete.
     pub(super) fn lines(&mut self, bytes: &[u8]) -> Vec<Vec<u8>> {
         let mut lines = Vec::new();
@@ -120,11 +110,6 @@ impl Session {
             }
         }
         lines
-    }
-
-    /// Returns the number of bytes of the incomplete line.
-    pub(super) fn unfinished(&self) -> usize {
-        self.line.len()
     }
 }
 

@@ -159,14 +159,13 @@ pub trait RowReader {
         false
     }
 
-    /// Reads at most `rows` rows of some columns into `into`, one vector for each of `wanted` (number of the column
+    /// Reads at most `rows` rows of some columns into `to`, one vector for each of `wanted` (number of the column
     /// below [`width`](Self::width), its content; the same ones in every call), and returns how many there were; 0 at
     /// the end.
     ///
     /// # Errors
     /// [`TableError`] with the place of the first error.
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
-    -> Result<usize, TableError>;
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, to: &mut [Vec<f64>]) -> Result<usize, TableError>;
 }
 
 /// Opens the table in `path`, in the format of its first bytes, not of its name: NPY, or text as CSV, which may be
@@ -277,8 +276,9 @@ fn expanded(names: &[String]) -> Vec<String> {
     all
 }
 
-/// Returns the names of `width` columns, if there are any.
-fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, TableError> {
+/// Returns the names of `width` columns, [expanded], if there are any.
+fn names_of_columns(names: &[String], width: usize) -> Result<Option<Vec<String>>, TableError> {
+    let names = expanded(names);
     if names.is_empty() {
         return Ok(None);
     }

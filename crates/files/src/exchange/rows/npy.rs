@@ -5,7 +5,7 @@
 
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 
-use super::{ColumnKind, ReadOptions, RowReader, expanded, names_of_columns};
+use super::{ColumnKind, ReadOptions, RowReader, names_of_columns};
 use crate::exchange::error::TableError;
 
 /// The first bytes of such a file.
@@ -105,7 +105,7 @@ impl<R: Read + Seek> NpyRows<R> {
             )));
         }
         let width = usize::try_from(width).map_err(|_| refused("it has too many columns"))?;
-        let (names, missing) = (names_of_columns(expanded(&options.names), width)?, options.missing.clone());
+        let (names, missing) = (names_of_columns(&options.names, width)?, options.missing.clone());
         Ok(Self { reader, names, missing, element, fortran, rows, width, start, read: 0, bytes: Vec::new() })
     }
 
@@ -157,19 +157,14 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
         self.width
     }
 
-    fn read(
-        &mut self,
-        wanted: &[(usize, ColumnKind)],
-        rows: usize,
-        into: &mut [Vec<f64>],
-    ) -> Result<usize, TableError> {
-        into.iter_mut().for_each(Vec::clear);
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, to: &mut [Vec<f64>]) -> Result<usize, TableError> {
+        to.iter_mut().for_each(Vec::clear);
         let rows = (self.rows - self.read).min(rows as u64) as usize;
         let (element, first) = (self.element, self.read);
         if !self.fortran {
             self.numbers(first * self.width as u64, rows * self.width)?;
         }
-        for ((place, kind), column) in wanted.iter().zip(into) {
+        for ((place, kind), column) in wanted.iter().zip(to) {
             let (skipped, step) = if self.fortran { (0, 1) } else { (*place, self.width) };
             if self.fortran {
                 self.numbers(*place as u64 * self.rows + first, rows)?;

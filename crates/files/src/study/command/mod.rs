@@ -118,7 +118,7 @@ fn protocol(context: &Context, section: &CommandSection, first_pick: Option<&Ran
         ("regex, column, pointer, file, match", first_pick.cloned()),
     ];
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
-        return Err(context.fault(span, wrong(key, RUNS, "without it".to_owned())));
+        return Err(context.fault(span, wrong(key, RUNS, "without it")));
     }
     Ok(optional_choice(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
 }
@@ -136,7 +136,7 @@ fn refuse_number(
     let what = if is_factor { "factor" } else { "output" };
     if is_factor || is_output {
         let expected = "different from `id`, which is the number of the row";
-        return context.refuse(key, &format!("name of the {what}"), expected, "`id`".to_owned());
+        return context.refuse(key, &format!("name of the {what}"), expected, "`id`");
     }
     Ok(())
 }
@@ -152,5 +152,5 @@ fn number_within(
         return Ok(Some(*typed.get_ref()));
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
-    context.refuse(typed, key, &expected, typed.get_ref().to_string())
+    context.refuse(typed, key, &expected, typed.get_ref())
 }

@@ -26,7 +26,7 @@ pub(super) fn form(
 ) -> Result<(PerRun, Vec<String>), Fault> {
     if let Some(protocol) = &section.protocol {
         let expected = "used only without `template`, for a program that is kept alive";
-        return Err(context.fault(protocol.span(), wrong("protocol", expected, "with it".to_owned())));
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "with it")));
     }
     let template_file = resolve(context, template, path_scope(section))?;
     let input = section.input.as_ref().map_or_else(|| name_of(&template_file), |input| input.get_ref().clone());
@@ -48,7 +48,7 @@ pub(super) fn refuse_without_pick(
     let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
     let expected = "a table that locates the number, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
                     { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
-    context.refuse(key, &format!("outputs.{}", output.name), expected, "only a unit, with `template`".to_owned())
+    context.refuse(key, &format!("outputs.{}", output.name), expected, "only a unit, with `template`")
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
