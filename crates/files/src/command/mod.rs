@@ -23,9 +23,11 @@ use kept_alive::KeptAliveWorker;
 pub use per_run::PerRun;
 use per_run::PerRunWorker;
 pub use pick::{Match, Pick, PickMethod, Source};
-pub use program::{Program, program_files};
+pub use program::Program;
+pub(crate) use program::program_files;
 pub use protocol::{Protocol, parse_answer};
-pub use template::{InputTemplate, TemplateError, TemplateProblem};
+pub(crate) use template::TemplateProblem;
+pub use template::{InputTemplate, TemplateError};
 
 /// How a program receives rows.
 #[derive(Debug, Clone)]

@@ -66,7 +66,7 @@ impl Program {
 }
 
 /// Returns the existing files among the program and its arguments, without the files that the program reads or imports.
-pub fn program_files(program: &Program) -> Vec<PathBuf> {
+pub(crate) fn program_files(program: &Program) -> Vec<PathBuf> {
     let arguments = program.arguments.iter().enumerate();
     // A program without a slash is searched for in PATH.
     let arguments = arguments.filter(|(place, _)| *place > 0 || program.file().is_some());

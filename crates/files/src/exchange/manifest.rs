@@ -12,81 +12,81 @@ use super::error::{TableError, refused};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     /// `"apportion-design"`.
-    pub format: String,
+    format: String,
     /// 1.
-    pub version: u32,
+    version: u32,
     /// Version of the program that wrote it.
-    pub apportion_version: String,
+    apportion_version: String,
     /// The study.
-    pub study: ManifestStudy,
+    study: ManifestStudy,
     /// The rows of the design file.
-    pub design: ManifestDesign,
+    design: ManifestDesign,
     /// The columns of the design file.
-    pub factors: Vec<ManifestFactor>,
+    factors: Vec<ManifestFactor>,
 }
 
 /// The study of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestStudy {
+struct ManifestStudy {
     /// Its name.
-    pub name: String,
+    name: String,
     /// Its file, as named on the command line.
-    pub file: String,
+    file: String,
     /// SHA-256 of the file.
-    pub sha256: String,
+    sha256: String,
     /// Changes made on the command line.
-    pub overrides: Vec<String>,
+    overrides: Vec<String>,
     /// The text of the file, unchanged.
-    pub text: String,
+    text: String,
 }
 
 /// The rows of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestDesign {
+struct ManifestDesign {
     /// The sampler.
-    pub sampler: String,
+    sampler: String,
     /// The seed.
-    pub seed: u64,
+    seed: u64,
     /// Number of independent randomisations.
-    pub replicates: u64,
+    replicates: u64,
     /// Total number of base samples.
-    pub base_samples: u64,
+    base_samples: u64,
     /// Number of rows of each base sample.
-    pub rows_per_point: u64,
+    rows_per_point: u64,
     /// Total number of rows.
-    pub rows: u64,
+    rows: u64,
     /// The order of the rows, in words.
-    pub order: String,
+    order: String,
     /// The rows of a base sample.
-    pub layout: Vec<ManifestRun>,
+    layout: Vec<ManifestRun>,
     /// SHA-256 of the numbers, row by row, each as a little-endian double.
-    pub sha256: String,
+    sha256: String,
 }
 
 /// A row of a base sample: that of the matrix `base`, with `columns` from the matrix `from`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestRun {
+struct ManifestRun {
     /// A, B, or "plain 1" and so on for rows that serve only surrogates.
-    pub base: String,
+    base: String,
     /// Names of factors.
-    pub columns: Vec<String>,
+    columns: Vec<String>,
     /// Likewise.
-    pub from: String,
+    from: String,
     /// Names of dependent factors that come from neither matrix, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub following: Vec<String>,
+    following: Vec<String>,
 }
 
 /// A column of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestFactor {
+struct ManifestFactor {
     /// The factor, which is the header of its column.
-    pub name: String,
+    name: String,
     /// The unit of its values.
-    pub unit: String,
+    unit: String,
     /// The labels of a factor of categories.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub labels: Option<Vec<String>>,
+    labels: Option<Vec<String>>,
 }
 
 const FORMAT: &str = "apportion-design";
@@ -134,6 +134,11 @@ impl Manifest {
             },
             factors: factors.collect(),
         }
+    }
+
+    /// Returns whether it describes the design of the study of that name, with that number of factors.
+    pub fn describes(&self, study: &str, factors: usize) -> bool {
+        self.study.name == study && self.factors.len() == factors
     }
 
     /// Returns the path of the manifest of the design file `design`: next to it.

@@ -38,7 +38,7 @@ use context::Context;
 pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;
-pub use subjects::{CommandSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject};
+pub use subjects::{ExpressionSubject, Formula};
 pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.

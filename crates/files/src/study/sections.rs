@@ -26,8 +26,8 @@ use super::output_table::Outputs;
 use crate::Protocol;
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 #[schemars(title = "apportion study")]
 pub(super) struct StudyFile {
     /// Name of the result files; by default the name of the study file without its ending.
@@ -39,26 +39,20 @@ pub(super) struct StudyFile {
     pub model: Option<At<String>>,
     /// Outputs: a list of names, by default the model's first. For formulas, a table: outputs.y = "x1 + x2". For programs
     /// and external models, also a table of units: outputs.y = "nN".
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Outputs>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::afm")]
     pub afm: Option<At<Choices>>,
     /// Parameters of a function with known indices.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
     /// Constants of formulas.
-    #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
     /// The program that is the model: a list of the program and its arguments, or a table.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::list_or_table::<CommandSection>")]
     pub command: Option<At<CommandSection>>,
     /// The noise of a stochastic model: the name of the seed that it gets with every row, or a table.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
     pub noise: Option<At<NoiseSection>>,
     /// Required accuracy: the half width that the 95 % interval of every first-order and total index must
@@ -66,29 +60,23 @@ pub(super) struct StudyFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub accuracy: Option<At<f64>>,
     /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
-    #[serde(default)]
     pub dependence: Vec<At<DependenceSection>>,
     /// Cheaper models of the same outputs, used in place of the model where they help.
-    #[serde(default)]
     pub fidelity: Option<At<FidelitySection>>,
     /// The points at which the model runs.
-    #[serde(default)]
     pub design: DesignSection,
     /// Results in addition to first-order and total indices, and how they are estimated.
-    #[serde(default)]
     pub analysis: AnalysisSection,
     /// The inputs to compare: tables [[factor]]. Their order in the file assigns the dimensions of the sequence.
-    #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
     /// The same, one line for each factor.
-    #[serde(default)]
     #[schemars(skip)]
     pub factors: BTreeMap<At<String>, At<FactorSection>>,
 }
 
 /// A program of your own as the model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a list in square brackets, or a table")]
+#[serde(default, deny_unknown_fields, expecting = "a list in square brackets, or a table")]
 pub(super) struct CommandSection {
     /// The program and its arguments; no shell reads them.
     #[schemars(length(min = 1))]
@@ -107,11 +95,9 @@ pub(super) struct CommandSection {
     /// Working directory of the program, relative to the study; by default the folder of the study.
     pub directory: Option<At<String>>,
     /// Environment variables that are set for the program.
-    #[serde(default)]
     pub env: BTreeMap<String, String>,
     /// Other files that its answers depend on, such as data, relative to the study: recorded answers from before a change of these
     /// files are not reused. The program and files among its arguments are included; list what they import.
-    #[serde(default)]
     pub depends_on: Vec<At<String>>,
     /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
     /// row, in its own directory.
@@ -119,7 +105,6 @@ pub(super) struct CommandSection {
     /// Name of the input file in the directory of a run; by default that of the template.
     pub input: Option<At<String>>,
     /// Files that are copied to the directory of each run, relative to the study.
-    #[serde(default)]
     pub files: Vec<At<String>>,
     /// Whether paths in this table may lead outside the study's folder.
     pub files_outside: Option<At<bool>>,
@@ -129,10 +114,9 @@ pub(super) struct CommandSection {
 
 /// Constants of formulas.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table [expression]")]
+#[serde(default, deny_unknown_fields, expecting = "a table [expression]")]
 pub(super) struct ExpressionSection {
     /// Numbers, or quantities with units, that formulas may use.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
 }

@@ -11,11 +11,12 @@ use apportion::study::Subject;
 use apportion_base::quantity::{Quantity, Unit};
 use serde_json::{Value, json};
 
-use crate::{CommandModel, CommandSettings, Form, ModelKind, program_files};
+use crate::command::program_files;
+use crate::{CommandModel, CommandSettings, Form, ModelKind};
 
 /// A function with known indices and its parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct KnownSubject {
+pub(super) struct KnownSubject {
     /// The function.
     pub function: KnownFunction,
 }
@@ -26,7 +27,7 @@ pub struct ExpressionSubject {
     /// The requested outputs.
     pub formulas: Vec<Formula>,
     /// The names in formulas in addition to the factors.
-    pub constants: Vec<ExpressionConstant>,
+    pub(super) constants: Vec<ExpressionConstant>,
 }
 
 /// An output by its formula.
@@ -42,18 +43,18 @@ pub struct Formula {
 
 /// A user's program.
 #[derive(Debug, Clone)]
-pub struct CommandSubject {
+pub(super) struct CommandSubject {
     /// The program and how it receives rows.
     pub settings: CommandSettings,
     /// The settings that determine its replies, in the terms of the study file.
-    pub(super) stated: Vec<(&'static str, Value)>,
+    pub stated: Vec<(&'static str, Value)>,
     /// Other files that determine its replies.
-    pub(super) depends_on: Vec<PathBuf>,
+    pub depends_on: Vec<PathBuf>,
 }
 
 /// A constant of formulas.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ExpressionConstant {
+pub(super) struct ExpressionConstant {
     /// Its name.
     pub name: String,
     /// Its value as typed; formulas use it in SI.

@@ -8,11 +8,12 @@ use apportion_base::files::read_text;
 use apportion_base::names::nearest;
 
 use super::{existing, path_scope};
+use crate::command::TemplateProblem;
 use crate::study::at::At;
 use crate::study::context::{Context, Fault, resolve, wrong};
 use crate::study::error::Problem;
 use crate::study::sections::CommandSection;
-use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
+use crate::{CommandOutput, InputTemplate, PerRun};
 
 /// Names of files that the engine writes in the directory of a run.
 const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
