@@ -1,7 +1,10 @@
 //! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
+use std::sync::LazyLock;
+
 use apportion::model::item_of_list;
 use apportion_base::text::{masked, shortened};
+use regex_lite::{Captures, Regex};
 use serde_json::Value;
 
 /// The content of an object under one key: a single output, or a list of several.
@@ -97,26 +100,13 @@ fn kind(value: &Value) -> &'static str {
 
 /// Replaces `NaN` and `Infinity`, which Python writes although JSON does not have them, by null.
 fn without_nan(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let (mut rest, mut in_string) = (text, false);
-    while let Some(c) = rest.chars().next() {
-        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|word| !in_string && rest.starts_with(word));
-        let length = match word {
-            Some(word) => {
-                out.push_str("null");
-                word.len()
-            }
-            // An escape and the escaped character.
-            None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
-            None => c.len_utf8(),
-        };
-        if word.is_none() {
-            out.push_str(&rest[..length]);
-        }
-        in_string ^= c == '"';
-        rest = &rest[length..];
-    }
-    out
+    static TEXT_OR_WORD: LazyLock<Regex> =
+        LazyLock::new(|| Regex::new(r#"(?s)"(?:[^"\\]|\\.)*"|-?Infinity|NaN"#).expect("a regular expression"));
+    let replaced = TEXT_OR_WORD.replace_all(text, |part: &Captures<'_>| match part[0].starts_with('"') {
+        true => part[0].to_owned(),
+        false => "null".to_owned(),
+    });
+    replaced.into_owned()
 }
 
 /// The reply of a program to a row: a value for every output, NaN for a missing one; or why there are none.

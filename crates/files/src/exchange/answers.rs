@@ -59,10 +59,10 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         add_rows(&mut digest, points);
         let expected = (rows.end - rows.start) as usize;
         let count = reader.read(&wanted, expected, &mut cells)?;
-        let (answers, found) = cells.split_at(columns.outputs.len());
+        let (answers, points_in_file) = cells.split_at(columns.outputs.len());
         for place in 0..count {
-            for ((_, factor), found) in columns.factors.iter().zip(found) {
-                compare(&space.factors()[*factor], found[place], points[*factor][place], row + place as u64 + 1)?;
+            for ((_, factor), values) in columns.factors.iter().zip(points_in_file) {
+                compare(&space.factors()[*factor], values[place], points[*factor][place], row + place as u64 + 1)?;
             }
         }
         row += count as u64;
@@ -153,10 +153,10 @@ impl Columns {
             let factors = (0..first).map(|place| (place, place)).collect();
             return Ok(Self { outputs: (first..).zip(outputs).collect(), factors });
         };
-        let (mut found, mut others) = (Vec::new(), Vec::new());
+        let (mut columns, mut others) = (Vec::new(), Vec::new());
         for (place, name) in names.iter().enumerate() {
             match factors.iter().position(|factor| factor.name == *name) {
-                Some(factor) => found.push((place, factor)),
+                Some(factor) => columns.push((place, factor)),
                 None => others.push(name.clone()),
             }
         }
@@ -166,7 +166,7 @@ impl Columns {
             outputs => outputs.to_vec(),
         };
         let outputs = output_columns(names, &outputs, &|name| factors.iter().any(|factor| factor.name == name))?;
-        Ok(Self { outputs, factors: found })
+        Ok(Self { outputs, factors: columns })
     }
 
     /// Returns the columns to read.

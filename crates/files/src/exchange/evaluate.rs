@@ -182,7 +182,7 @@ impl<'a> PointsReader<'a> {
         }
         for ((cells, (place, _)), factor) in self.cells.iter().zip(&self.wanted).zip(&self.factors) {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
-                let found = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
+                let cell = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
                 let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
                 let (column, factor) = (place + 1, &factors[*factor]);
                 let expected = match factor.distribution().labels() {
@@ -190,7 +190,7 @@ impl<'a> PointsReader<'a> {
                     None => format!("a finite number in {}", factor.unit()),
                 };
                 let name = &factor.name;
-                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {found}"));
+                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {cell}"));
             }
             columns[*factor].copy_from_slice(cells);
         }

@@ -47,8 +47,8 @@ fn dependence(context: &Context, section: &At<DependenceSection>, space: &Space)
         (None, Some(columns)) => Ok(Dependence::from_measurements(&names, &columns)),
         (_, measured) => {
             let expected = "a table with `factors` and exactly one of `correlation` (as in correlation = 0.6), `file` and `measurements`";
-            let found = if measured.is_some() { "one with both" } else { "one with neither" };
-            context.refuse(section, "dependence", expected, found.to_owned())
+            let keys = if measured.is_some() { "one with both" } else { "one with neither" };
+            context.refuse(section, "dependence", expected, keys)
         }
     }
 }

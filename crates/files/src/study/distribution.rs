@@ -65,8 +65,8 @@ fn parameter(context: &Context, fields: &FactorSection, kind: Kind, typed: &Type
             [min, max] => Parameter::Bounds(min, max),
             _ => {
                 let expected = "two numbers, as in truncate = [1, 5]; inf or -inf for no bound";
-                let found = format!("a list of {}", list.len());
-                return Err(context.fault(typed.span.clone(), wrong("truncate", expected, found)));
+                let problem = wrong("truncate", expected, format!("a list of {}", list.len()));
+                return Err(context.fault(typed.span.clone(), problem));
             }
         },
         TypedValue::Quantiles(table) => {
@@ -85,7 +85,7 @@ fn parameter(context: &Context, fields: &FactorSection, kind: Kind, typed: &Type
 
 /// Returns the value of the typed one, in the factor's unit.
 pub(super) fn nominal_value(factor: &str, distribution: &Distribution, typed: &Nominal) -> Result<f64, Problem> {
-    let (value, found) = match typed {
+    let (value, text) = match typed {
         Nominal::Number(number) => (Some(*number), number.to_string()),
         Nominal::Truth(truth) => (distribution.value_of(&truth.to_string()), truth.to_string()),
         Nominal::Label(label) => (distribution.value_of(label), format!("\"{label}\"")),
@@ -93,7 +93,7 @@ pub(super) fn nominal_value(factor: &str, distribution: &Distribution, typed: &N
     match value.filter(|value| is_value(distribution, *value)) {
         Some(value) => Ok(value),
         None => Err(Problem::with_help(
-            format!("factor `{factor}`: its nominal value is {found}, which is not one of its values"),
+            format!("factor `{factor}`: its nominal value is {text}, which is not one of its values"),
             format!("it takes {}", values(distribution)),
         )),
     }

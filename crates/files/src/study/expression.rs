@@ -33,8 +33,7 @@ fn refuse_name(context: &Context, what: &'static str, name: &At<String>) -> Resu
         name if Expression::is_reserved(name) => "not a function or number of the formula language",
         _ => return Ok(()),
     };
-    let (key, found) = (format!("name of a {what}"), format!("{:?}", name.get_ref()));
-    context.refuse(name, &key, reason, found)
+    context.refuse(name, &format!("name of a {what}"), reason, format!("{:?}", name.get_ref()))
 }
 
 /// Returns the formulas with their constants, and notes on unused names.

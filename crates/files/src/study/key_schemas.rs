@@ -1,7 +1,7 @@
 //! The schemas of single keys of study files, which do not follow from their types.
 
 use apportion::model::KnownAnswer;
-use apportion::space::distribution::{Key, KeyKind, Kind};
+use apportion::space::distribution::{Key, KeyKind};
 use apportion_afm::{Parameter, edge_unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
@@ -15,18 +15,10 @@ pub(super) fn afm_choices() -> impl Iterator<Item = (&'static str, Vec<&'static 
     ModelKind::AFM.choices().into_iter().map(|(key, names)| (key.split(' ').next().unwrap_or(key), names))
 }
 
-pub(super) fn models() -> Vec<&'static str> {
-    ModelKind::all().into_iter().map(|kind| kind.name).collect()
-}
-
 /// Returns the schema of the low-fidelity models.
 pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
     let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
-}
-
-pub(super) fn distributions() -> Vec<&'static str> {
-    Kind::all().map(Kind::name).collect()
 }
 
 /// Returns the schema of `[afm]`: the choices, and every parameter as a quantity.

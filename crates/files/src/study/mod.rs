@@ -73,7 +73,7 @@ pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError
 /// # Errors
 /// [`StudyError`] with the place in the text and what is expected.
 pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
-    let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
+    let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overrides::apply(text, overrides)? };
     let is_editable = effective.is_some();
     let context = Context { path: path.to_owned(), text: effective.unwrap_or_else(|| text.to_owned()) };
     let (study, notes) = resolve::study(context).map_err(|mut diagnostic| {
@@ -91,19 +91,16 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
         notes,
     }))
 }
+
 /// Returns the text of a study after `overrides`, which [`parse_study`] reads like the original text with them.
 ///
 /// # Errors
 /// [`StudyError`] if an override cannot be applied, or the text is not TOML.
 pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
-    overridden(text, overrides)?.ok_or_else(|| not_editable(overrides))
+    overrides::apply(text, overrides)?.ok_or_else(|| not_editable(overrides))
 }
 
 fn not_editable(overrides: &[String]) -> StudyError {
     let problem = "the study cannot be changed, because it has an integer above 2^63 - 1, which TOML does not allow";
     StudyError::Override { text: overrides.join(" "), problem: problem.to_owned() }
-}
-
-fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
-    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
 }

@@ -233,15 +233,15 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
             return Err(wrong(&format!("{key}.positions"), &expected, format!("a list of {}", list.len())));
         }
         (_, None) => {
-            let found = format!("`{first}` without one");
-            return Err(wrong(&format!("{key}.length"), "the number of values, as in length = 365", found));
+            let expected = "the number of values, as in length = 365";
+            return Err(wrong(&format!("{key}.length"), expected, format!("`{first}` without one")));
         }
     };
     axis.map(Some).map_err(|error| match error {
         SeriesError::Length { found } => wrong(&format!("{key}.length"), "2 to 10000 values", found),
         SeriesError::Position { place, found } => {
-            let found = format!("{found} at place {place}");
-            wrong(&format!("{key}.positions"), "finite numbers in rising order", found)
+            let position = format!("{found} at place {place}");
+            wrong(&format!("{key}.positions"), "finite numbers in rising order", position)
         }
     })
 }

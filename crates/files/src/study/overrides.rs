@@ -4,6 +4,7 @@ use apportion::study::did_you_mean;
 use apportion_base::names::nearest;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
+use super::error::StudyError;
 use crate::ModelKind;
 
 /// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` is a key of the factor of
@@ -11,10 +12,10 @@ use crate::ModelKind;
 /// parsed as TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
 /// `None` if the text is not TOML: the reader then reports it, with the position.
-pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, String)> {
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
     for text in overrides {
-        set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
+        set(document.as_table_mut(), text).map_err(|problem| StudyError::Override { text: text.clone(), problem })?;
     }
     Ok(Some(document.to_string()))
 }

@@ -23,7 +23,7 @@ use super::at::{At, Choices};
 use super::context::names_of;
 use super::key_schemas;
 use super::output_table::Outputs;
-use crate::Protocol;
+use crate::{ModelKind, Protocol};
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -35,7 +35,7 @@ pub(super) struct StudyFile {
     /// Title of the report.
     pub title: Option<At<String>>,
     /// The model; `apportion models` lists all of them.
-    #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
+    #[schemars(extend("enum" = ModelKind::all().iter().map(|kind| kind.name).collect::<Vec<_>>(), "default" = "afm"))]
     pub model: Option<At<String>>,
     /// Outputs: a list of names, by default the model's first. For formulas, a table: outputs.y = "x1 + x2". For programs
     /// and external models, also a table of units: outputs.y = "nN".
@@ -258,7 +258,7 @@ pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
     /// Its distribution.
-    #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enum" = Kind::all().map(Kind::name).collect::<Vec<_>>(), "default" = "uniform"))]
     #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".

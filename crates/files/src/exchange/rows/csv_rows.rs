@@ -106,8 +106,8 @@ impl CsvRows {
                 return Ok(Some((record, line)));
             }
             if !record[0].starts_with('#') || is_error_word(&record[0]) {
-                let (expected, found) = (self.width, record.len());
-                return refused(format!("line {line}: expected {expected} cells as in the header, not {found}"));
+                let (width, cells) = (self.width, record.len());
+                return refused(format!("line {line}: expected {width} cells as in the header, not {cells}"));
             }
         }
         Ok(None)

@@ -47,8 +47,8 @@ impl Format {
         if let Some(format) = Self::ALL.into_iter().find(|format| ending.as_deref() == Some(format.name())) {
             return Ok(format);
         }
-        let found = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
-        refused(format!("the ending of the name gives the format: expected .csv or .npy{found}"))
+        let ending = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
+        refused(format!("the ending of the name gives the format: expected .csv or .npy{ending}"))
     }
 }
 
