@@ -16,7 +16,7 @@ use session::{LONGEST, Lookup, MAX_PENDING, Rows, Session};
 use super::process::{Event, Process};
 use super::program::ended_in_words;
 use super::protocol::{RowWriter, is_answer_without_number, parse_answer};
-use super::{CommandModel, Protocol, State};
+use super::{CommandModel, Protocol};
 
 /// Number of bytes of rows that are written at once.
 const TEXT: usize = 1 << 15;
@@ -163,11 +163,10 @@ impl<'a> KeptAliveWorker<'a> {
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }
-        State::send_once(
-            &model.state.strayed,
-            self.context.messages(),
-            &format!("warning: the program printed a line that is not an answer and is ignored: {words}"),
-        );
+        model.state.strayed.get_or_init(|| {
+            let warning = "warning: the program printed a line that is not an answer and is ignored";
+            self.context.messages().send(&format!("{warning}: {words}"));
+        });
         session.strayed += line.len().max(1);
         session.stray = Some(words);
         if session.strayed > LONGEST { Err(too_long(session)) } else { Ok(()) }
@@ -184,12 +183,12 @@ impl<'a> KeptAliveWorker<'a> {
             false => FIRST_START,
         };
         if !state.has_answered() && silent_for > SILENCE {
-            State::send_once(
-                &state.hinted,
-                self.context.messages(),
-                "still waiting for the program's first answer: it may still be starting (imports), need long for its \
-                 first row, or not flush its output, as print(..., flush=True) does",
-            );
+            state.hinted.get_or_init(|| {
+                self.context.messages().send(
+                    "still waiting for the program's first answer: it may still be starting (imports), need long for \
+                     its first row, or not flush its output, as print(..., flush=True) does",
+                );
+            });
         }
         if silent_for > quiet {
             session.close();

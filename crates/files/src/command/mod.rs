@@ -13,10 +13,11 @@ mod program;
 mod protocol;
 mod template;
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
-use apportion::model::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
+use apportion::model::{Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 use apportion::space::Factor;
 use apportion_base::quantity::Unit;
 use kept_alive::KeptAliveWorker;
@@ -122,8 +123,8 @@ struct State {
     /// The longest time to a reply, the start of its process included, in microseconds.
     slowest: AtomicU64,
     /// Whether hints on its silence, and on lines that are not replies, have been given.
-    hinted: AtomicBool,
-    strayed: AtomicBool,
+    hinted: OnceLock<()>,
+    strayed: OnceLock<()>,
 }
 
 /// Maximum number of rows that may fail before the first reply.
@@ -146,13 +147,6 @@ impl State {
             return Ok(());
         }
         Err(RowFailure::new(&format!("the program has answered none of its first {MAX_FAILED_FIRST} rows: {reason}")))
-    }
-
-    /// Sends `line`, unless `sent` is set already.
-    fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
-        if !sent.swap(true, Ordering::Relaxed) {
-            messages.send(line);
-        }
     }
 }
 

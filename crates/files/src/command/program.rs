@@ -151,11 +151,11 @@ impl Running {
         self.ended.is_some() || !matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Waits at most `longest` until it has ended by itself, and returns whether it has.
-    pub(super) fn ends_within(&mut self, longest: Duration) -> bool {
+    /// Waits at most `timeout` until it has ended by itself, and returns whether it has.
+    pub(super) fn ends_within(&mut self, timeout: Duration) -> bool {
         let (start, mut pause) = (Instant::now(), Duration::from_micros(200));
         while !self.has_ended() {
-            if start.elapsed() >= longest {
+            if start.elapsed() >= timeout {
                 return false;
             }
             std::thread::sleep(pause);

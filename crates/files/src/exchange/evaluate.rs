@@ -70,9 +70,9 @@ pub fn evaluate(
     let model = study.model();
     let factors = study.space().factors();
     let run = TableRun::new(model.as_ref(), context, 0);
-    let most = run.rows_at_once();
+    let max_rows = run.rows_at_once();
     let mut batch = Batch::new(model.as_ref());
-    let mut columns = vec![Vec::with_capacity(most); factors.len()];
+    let mut columns = vec![Vec::with_capacity(max_rows); factors.len()];
     let mut evaluated = Evaluated {
         skipped: reader.skipped.clone(),
         nominal: (0..factors.len()).filter(|factor| !reader.factors.contains(factor)).collect(),
@@ -81,7 +81,7 @@ pub fn evaluate(
     let copied: &[Factor] = if with_points { factors } else { &[] };
     let mut writer = RowWriter::new(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
     loop {
-        let rows = reader.read(factors, most, &mut columns)?;
+        let rows = reader.read(factors, max_rows, &mut columns)?;
         if rows == 0 {
             break;
         }

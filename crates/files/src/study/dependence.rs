@@ -78,10 +78,10 @@ fn measured_columns(context: &Context, section: &DependenceSection) -> Result<Op
         }
         (None, None) => return Ok(None),
     };
-    let fewest = columns.iter().map(Vec::len).min().unwrap_or(0);
-    if fewest < MIN_MEASUREMENTS {
+    let count = columns.iter().map(Vec::len).min().unwrap_or(0);
+    if count < MIN_MEASUREMENTS {
         let expected = format!("at least {MIN_MEASUREMENTS} joint measurements");
-        return Err(context.fault(span, wrong("measurements", &expected, fewest)));
+        return Err(context.fault(span, wrong("measurements", &expected, count)));
     }
     Ok(Some(columns))
 }

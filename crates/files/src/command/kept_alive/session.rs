@@ -30,7 +30,7 @@ pub(super) struct Session {
     /// Whether its input is closed.
     pub is_closed: bool,
     /// The time of the last reply, or of the first row sent after a pause.
-    heard: Instant,
+    last_reply: Instant,
     /// Bytes of lines that were not replies since the last reply, and a description of the last such line.
     pub strayed: usize,
     pub stray: Option<String>,
@@ -54,7 +54,7 @@ impl Session {
             sent: 0,
             pending: BTreeMap::new(),
             is_closed: false,
-            heard: Instant::now(),
+            last_reply: Instant::now(),
             strayed: 0,
             stray: None,
             line: Vec::new(),
@@ -66,7 +66,7 @@ impl Session {
         let number = FIRST_NUMBER + self.sent % NUMBERS;
         if self.pending.is_empty() {
             // Time without pending rows does not count.
-            self.heard = Instant::now();
+            self.last_reply = Instant::now();
         }
         self.pending.insert(number, row);
         self.sent += 1;
@@ -89,13 +89,13 @@ impl Session {
     }
 
     pub(super) fn silent_for(&self) -> Duration {
-        self.heard.elapsed()
+        self.last_reply.elapsed()
     }
 
     /// Records a reply and returns its time, the start of the process included.
     pub(super) fn note_answer(&mut self) -> Duration {
         let took = self.silent_for();
-        self.heard = Instant::now();
+        self.last_reply = Instant::now();
         self.strayed = 0;
         took
     }

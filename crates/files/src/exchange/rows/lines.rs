@@ -29,10 +29,8 @@ impl Lines {
     pub(super) fn new(mut reader: Box<dyn Read>) -> Result<Self> {
         let mut begin = beginning(&mut reader)?;
         if begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff") {
-            let text = utf16(begin, reader)?;
-            begin = Vec::new();
-            reader = Box::new(Cursor::new(text));
-            begin.extend(beginning(&mut reader)?);
+            reader = Box::new(Cursor::new(utf16(begin, reader)?));
+            begin = beginning(&mut reader)?;
         }
         if begin.starts_with(b"\xef\xbb\xbf") {
             begin.drain(..3);

@@ -189,7 +189,7 @@ pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReade
     table_of_bytes(begin, options)
 }
 
-/// Opens the table in `bytes` in the way of [`open_table`].
+/// Opens the table in `bytes` like [`open_table`].
 ///
 /// # Errors
 /// As for [`open_table`].
