@@ -38,7 +38,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         form: Form::KeptAlive(Protocol::Csv),
         outputs: vec![output("deflection", millimetres()?), output("stress", Unit::parse("MPa")?)],
         series: Vec::new(),
-        asked: vec![0, 1],
+        requested: vec![0, 1],
         workers: Some(2),
         timeout: None,
         retries: 1,

@@ -176,7 +176,6 @@ fn keys_that_end_a_run() {
     for (line, place) in [
         ("target = 0.01", "5:1"),
         ("budget = \"30 s\"", "5:1"),
-        ("budget_runs = 300", "5:1"),
         ("max_time = \"30\"", "5:12"),
         ("max_time = \"30 nm\"", "5:12"),
         ("max_time = \"-1 s\"", "5:12"),

@@ -13,10 +13,10 @@ mod study;
 
 pub use catalogue::ModelKind;
 pub use command::{
-    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
-    TemplateError, TemplateProblem, Way, parse_answer, program_files,
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickMethod, Program,
+    Protocol, Source, TemplateError, parse_answer,
 };
 pub use study::{
-    CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, NEW_PROGRAM, Problem,
-    StudyError, TemplateRequest, edited, load_study, model_guide, new_program, parse_study, study_schema, template,
+    Diagnostic, ExpressionSubject, Formula, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, load_study,
+    model_guide, new_program, parse_study, study_schema, template,
 };

@@ -10,7 +10,8 @@ use apportion::model::{Batch, GiveUp, Model, RowFailure, RunContext};
 use apportion::space::{Distribution, Factor};
 use apportion_base::quantity::Unit;
 use apportion_files::{
-    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, PerRun, Pick, Program, Protocol, Source, Way,
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, PerRun, Pick, PickMethod, Program, Protocol,
+    Source,
 };
 use proptest::prelude::*;
 
@@ -29,9 +30,9 @@ fn model_of(
         directory: folder.to_owned(),
         environment: Vec::new(),
     };
-    let asked = (0..outputs.len()).collect();
+    let requested = (0..outputs.len()).collect();
     let (series, workers, timeout, retries) = (Vec::new(), Some(1), None, 1);
-    CommandModel::new(CommandSettings { program, form, outputs, series, asked, workers, timeout, retries }, factors)
+    CommandModel::new(CommandSettings { program, form, outputs, series, requested, workers, timeout, retries }, factors)
 }
 
 fn output(name: &str, pick: Option<Pick>) -> CommandOutput {
@@ -116,7 +117,7 @@ fn a_template_has_texts_as_they_are_and_the_table_of_factors_has_quotes() {
         files: Vec::new(),
         keep: Some(folder.path("runs")),
     };
-    let pick = Pick { source: Source::Stdout, way: Way::Pointer(String::new()) };
+    let pick = Pick { source: Source::Stdout, method: PickMethod::Pointer(String::new()) };
     let model = model_of("echo 1", &folder.path(""), Form::PerRun(form), vec![output("y", Some(pick))], factors());
     assert_eq!(outputs(&model, &INPUTS.map(|values| &values[1..])), [1.0]);
     let run = folder.path("runs").join(files(&folder.path("runs")).first().unwrap());

@@ -1,13 +1,13 @@
 //! The numbers that are extracted from what a run of a program has written.
 
-use apportion_files::{Match, Pick, Source, Way};
+use apportion_files::{Match, Pick, PickMethod, Source};
 
-fn found(way: Way, text: &str) -> Result<f64, String> {
-    way.number(text, "it")
+fn found(method: PickMethod, text: &str) -> Result<f64, String> {
+    method.number(text, "it")
 }
 
-fn regex(text: &str, which: Match) -> Way {
-    Way::Regex(text.parse().unwrap(), which)
+fn regex(text: &str, which: Match) -> PickMethod {
+    PickMethod::Regex(text.parse().unwrap(), which)
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn a_regex_takes_its_first_group_of_the_first_or_last_match() {
 
 #[test]
 fn a_column_takes_the_last_row_or_the_first() {
-    let column = |name: &str, which| Way::Column(name.to_owned(), which);
+    let column = |name: &str, which| PickMethod::Column(name.to_owned(), which);
     let text = "\u{feff}t,\"y, nN\"\r\n0, 1.5\r\n1, 2.5\r\n\r\n";
     assert_eq!(found(column("y, nN", Match::Last), text), Ok(2.5));
     assert_eq!(found(column("y, nN", Match::First), text), Ok(1.5));
@@ -36,7 +36,7 @@ fn a_column_takes_the_last_row_or_the_first() {
 
 #[test]
 fn a_pointer_leads_to_a_number() {
-    let pointer = |text: &str| Way::Pointer(text.to_owned());
+    let pointer = |text: &str| PickMethod::Pointer(text.to_owned());
     let text = r#"{"a/b": [0, {"y": 2.5e-3, "s": "7", "n": null, "l": [1]}]}"#;
     assert_eq!(found(pointer("/a~1b/1/y"), text), Ok(2.5e-3));
     assert_eq!(found(pointer("/a~1b/1/s"), text), Ok(7.0));
@@ -48,16 +48,16 @@ fn a_pointer_leads_to_a_number() {
 
 #[test]
 fn a_series_takes_row_after_row() {
-    let pick = |way| Pick { source: Source::Stdout, way };
-    let value = |pick: &Pick, number, text| found(pick.of_value(number).way, text);
-    let column = pick(Way::Column("y".to_owned(), Match::Last));
+    let pick = |method| Pick { source: Source::Stdout, method };
+    let value = |pick: &Pick, number, text| found(pick.of_value(number).method, text);
+    let column = pick(PickMethod::Column("y".to_owned(), Match::Last));
     assert_eq!([0, 1].map(|number| value(&column, number, "t,y\n0,1\n1,2\n")), [Ok(1.0), Ok(2.0)]);
     assert_eq!(value(&column, 2, "t,y\n0,1\n1,2\n").unwrap_err(), "it has no row 3");
     assert_eq!(value(&column, 1, "t,y\n0,1\n1\n").unwrap_err(), "it has no cell of column `y` in its row 2");
     let regex = pick(regex(r"y = (\S+)", Match::Last));
     assert_eq!(value(&regex, 1, "y = 1\ny = 2\ny = 3\n"), Ok(2.0));
     assert_eq!(value(&regex, 3, "y = 1\ny = 2\ny = 3\n").unwrap_err(), "it has no match of the regex 4");
-    let pointer = pick(Way::Pointer("/y".to_owned()));
+    let pointer = pick(PickMethod::Pointer("/y".to_owned()));
     assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
     assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has no value at `/y/2`");
 }

@@ -78,7 +78,5 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
 fn is_own(path: &Path, name: &str) -> bool {
     let manifest = read_text(&Manifest::path_for(path)).ok().and_then(|text| Manifest::parse(&text).ok());
     let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
-    manifest
-        .zip(width.ok())
-        .is_some_and(|(manifest, width)| manifest.study.name == name && manifest.factors.len() == width)
+    manifest.zip(width.ok()).is_some_and(|(manifest, width)| manifest.describes(name, width))
 }

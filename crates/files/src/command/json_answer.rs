@@ -1,7 +1,10 @@
 //! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
+use std::sync::LazyLock;
+
 use apportion::model::item_of_list;
 use apportion_base::text::{masked, shortened};
+use regex_lite::{Captures, Regex};
 use serde_json::Value;
 
 /// The content of an object under one key: a single output, or a list of several.
@@ -13,11 +16,7 @@ struct Key<'a> {
 
 /// Iterates over the keys of an object with `outputs`, in order: `y[0]`, `y[1]` and so on are the items of a list `y`.
 fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
-    let follows = |one: &String, next: &String| match (item_of_list(one), item_of_list(next)) {
-        (Some((list, place)), Some((same, following))) => list == same && following == place + 1,
-        _ => false,
-    };
-    outputs.chunk_by(follows).flat_map(|names| {
+    outputs.chunk_by(|name, next| is_next_item(name, next)).flat_map(|names| {
         let list = item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
         // An item that does not start a list is named by itself.
         let length = if list.is_some() { names.len() } else { 1 };
@@ -25,13 +24,21 @@ fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
     })
 }
 
+/// Returns whether `next` is the item after `name` of the same list.
+fn is_next_item(name: &str, next: &str) -> bool {
+    match (item_of_list(name), item_of_list(next)) {
+        (Some((list, place)), Some((same, following))) => list == same && following == place + 1,
+        _ => false,
+    }
+}
+
 /// Lists the keys of an object with `outputs`, as in `peak, infected (a list of 365)`.
 pub(super) fn keys_in_words(outputs: &[String]) -> String {
-    let words = |key: Key<'_>| match key.list {
+    let words = keys(outputs).map(|key| match key.list {
         Some(list) => format!("{list} (a list of {})", key.names.len()),
         None => key.names[0].clone(),
-    };
-    keys(outputs).map(words).collect::<Vec<_>>().join(", ")
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 pub(super) fn json(text: &str) -> Result<Value, String> {
@@ -42,11 +49,6 @@ pub(super) fn json(text: &str) -> Result<Value, String> {
 /// Converts `parsed` to a reply: one value for each of `outputs`, or why the row failed. The error describes it.
 pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, String> {
     let mut values = Vec::with_capacity(outputs.len());
-    let number = |value: &Value, of: &str| match value {
-        Value::Null => Ok(f64::NAN),
-        Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
-        other => Err(format!("{} as `{of}`", kind(other))),
-    };
     let Value::Object(object) = parsed else { return Err(kind(parsed).to_owned()) };
     match object.get("error") {
         Some(Value::String(reason)) => return Ok(failed(reason)),
@@ -55,21 +57,34 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, 
         Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
     }
     for key in keys(outputs) {
-        let by_name = |name: &String| match object.get(name) {
-            Some(value) => number(value, name),
-            None => Err(format!("an object without `{}`", key.list.unwrap_or(name))),
-        };
         let list = key.list.filter(|_| !object.contains_key(&key.names[0]));
         match list.and_then(|list| Some((list, object.get(list)?))) {
-            None => values.extend(key.names.iter().map(by_name).collect::<Result<Vec<f64>, _>>()?),
+            None => {
+                for name in key.names {
+                    let value = object.get(name);
+                    let value = value.ok_or_else(|| format!("an object without `{}`", key.list.unwrap_or(name)))?;
+                    values.push(number(value, name)?);
+                }
+            }
             Some((list, Value::Array(items))) if items.len() == key.names.len() => {
-                values.extend(items.iter().map(|item| number(item, list)).collect::<Result<Vec<f64>, _>>()?);
+                for item in items {
+                    values.push(number(item, list)?);
+                }
             }
             Some((list, Value::Array(items))) => return Err(format!("a list of {} as `{list}`", items.len())),
             Some((list, other)) => return Err(format!("{} as `{list}`", kind(other))),
         }
     }
     Ok(Ok(values))
+}
+
+/// Returns the number `value` of the output or list `name`; NaN for a missing one.
+fn number(value: &Value, name: &str) -> Result<f64, String> {
+    match value {
+        Value::Null => Ok(f64::NAN),
+        Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
+        other => Err(format!("{} as `{name}`", kind(other))),
+    }
 }
 
 fn kind(value: &Value) -> &'static str {
@@ -85,26 +100,13 @@ fn kind(value: &Value) -> &'static str {
 
 /// Replaces `NaN` and `Infinity`, which Python writes although JSON does not have them, by null.
 fn without_nan(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let (mut rest, mut in_string) = (text, false);
-    while let Some(c) = rest.chars().next() {
-        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|word| !in_string && rest.starts_with(word));
-        let length = match word {
-            Some(word) => {
-                out.push_str("null");
-                word.len()
-            }
-            // An escape and the escaped character.
-            None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
-            None => c.len_utf8(),
-        };
-        if word.is_none() {
-            out.push_str(&rest[..length]);
-        }
-        in_string ^= c == '"';
-        rest = &rest[length..];
-    }
-    out
+    static TEXT_OR_WORD: LazyLock<Regex> =
+        LazyLock::new(|| Regex::new(r#"(?s)"(?:[^"\\]|\\.)*"|-?Infinity|NaN"#).expect("a regular expression"));
+    let replaced = TEXT_OR_WORD.replace_all(text, |part: &Captures<'_>| match part[0].starts_with('"') {
+        true => part[0].to_owned(),
+        false => "null".to_owned(),
+    });
+    replaced.into_owned()
 }
 
 /// The reply of a program to a row: a value for every output, NaN for a missing one; or why there are none.

@@ -11,12 +11,12 @@ use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 use apportion_base::text::seconds;
-use session::{LONGEST, Lookup, Rows, Session};
+use session::{LONGEST, Lookup, MAX_PENDING, Rows, Session};
 
 use super::process::{Event, Process};
 use super::program::ended_in_words;
 use super::protocol::{RowWriter, is_answer_without_number, parse_answer};
-use super::{CommandModel, Protocol, State};
+use super::{CommandModel, Protocol};
 
 /// Number of bytes of rows that are written at once.
 const TEXT: usize = 1 << 15;
@@ -28,6 +28,9 @@ const QUIET: Duration = Duration::from_secs(2);
 const TIMES: u32 = 5;
 /// The same before the first reply of all.
 const FIRST_START: Duration = Duration::from_secs(60);
+
+/// How long a program without any reply may be silent before a hint is given.
+const SILENCE: Duration = Duration::from_secs(10);
 
 pub(super) struct KeptAliveWorker<'a> {
     model: &'a CommandModel,
@@ -81,7 +84,7 @@ impl<'a> KeptAliveWorker<'a> {
         while session.credit > 0 && !session.is_closed {
             let mut text = String::new();
             while text.len() < TEXT
-                && (is_ahead && session.has_room() || session.asked.is_empty())
+                && (is_ahead && session.pending.len() < MAX_PENDING || session.pending.is_empty())
                 && let Some(row) = rows.next()
             {
                 if session.sent == 0 {
@@ -103,9 +106,9 @@ impl<'a> KeptAliveWorker<'a> {
         match session.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
             Some(Event::Output(bytes)) => {
                 for line in session.lines(&bytes) {
-                    self.hear(session, &line, rows)?;
+                    self.handle_line(session, &line, rows)?;
                 }
-                if session.unfinished() > LONGEST {
+                if session.line.len() > LONGEST {
                     return Err(too_long(session));
                 }
             }
@@ -123,12 +126,12 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Handles a line that the process has printed.
-    fn hear(&self, session: &mut Session, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
+    fn handle_line(&self, session: &mut Session, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
         let (model, protocol) = (self.model, self.protocol);
         let words = match parse_answer(protocol, &model.names, line) {
             Err(words) => words,
             Ok((number, answer)) => match session.find(number) {
-                Lookup::Asked(row) => {
+                Lookup::Pending(row) => {
                     match answer {
                         Ok(values) => rows.answer(row, &values),
                         Err(reason) => rows.fail(row, &reason),
@@ -160,12 +163,12 @@ impl<'a> KeptAliveWorker<'a> {
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }
-        State::send_once(
-            &model.state.strayed,
-            self.context.messages(),
-            &format!("warning: the program printed a line that is not an answer and is ignored: {words}"),
-        );
-        session.note_stray(words, line.len());
+        model.state.strayed.get_or_init(|| {
+            let warning = "warning: the program printed a line that is not an answer and is ignored";
+            self.context.messages().send(&format!("{warning}: {words}"));
+        });
+        session.strayed += line.len().max(1);
+        session.stray = Some(words);
         if session.strayed > LONGEST { Err(too_long(session)) } else { Ok(()) }
     }
 
@@ -179,13 +182,13 @@ impl<'a> KeptAliveWorker<'a> {
             true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),
             false => FIRST_START,
         };
-        if !state.has_answered() && silent_for > self.model.silence {
-            State::send_once(
-                &state.hinted,
-                self.context.messages(),
-                "still waiting for the program's first answer: it may still be starting (imports), need long for its \
-                 first row, or not flush its output, as print(..., flush=True) does",
-            );
+        if !state.has_answered() && silent_for > SILENCE {
+            state.hinted.get_or_init(|| {
+                self.context.messages().send(
+                    "still waiting for the program's first answer: it may still be starting (imports), need long for \
+                     its first row, or not flush its output, as print(..., flush=True) does",
+                );
+            });
         }
         if silent_for > quiet {
             session.close();
@@ -194,9 +197,9 @@ impl<'a> KeptAliveWorker<'a> {
 
     /// Ends the process, and decides what happens to its pending rows.
     fn end(&self, session: Session, reason: &str, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
-        let is_own = session.sent == 1;
-        for row in session.asked.into_values() {
-            if rows.suspect(row, is_own) > self.model.settings.retries && is_own {
+        let is_alone = session.sent == 1;
+        for row in session.pending.into_values() {
+            if rows.suspect(row, is_alone) > self.model.settings.retries && is_alone {
                 rows.fail(row, reason);
                 let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
                 self.model.state.note_failure(&format!("{reason}; {hint}"))?;

@@ -1,4 +1,4 @@
-//! The user's own program as a model: kept alive and sent rows over its standard input and output, or started again for
+//! The user's program as a model: kept alive and sent rows over its standard input and output, or started again for
 //! each row in a directory of its own, with an input file made from a template.
 //!
 //! No shell is involved. A program is the leader of a process group, which is ended with it; its errors are reported
@@ -13,19 +13,22 @@ mod program;
 mod protocol;
 mod template;
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
-use apportion::model::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
+use apportion::model::{Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 use apportion::space::Factor;
 use apportion_base::quantity::Unit;
 use kept_alive::KeptAliveWorker;
 pub use per_run::PerRun;
 use per_run::PerRunWorker;
-pub use pick::{Match, Pick, Source, Way};
-pub use program::{Program, program_files};
+pub use pick::{Match, Pick, PickMethod, Source};
+pub use program::Program;
+pub(crate) use program::program_files;
 pub use protocol::{Protocol, parse_answer};
-pub use template::{InputTemplate, TemplateError, TemplateProblem};
+pub(crate) use template::TemplateProblem;
+pub use template::{InputTemplate, TemplateError};
 
 /// How a program receives rows.
 #[derive(Debug, Clone)]
@@ -59,7 +62,7 @@ pub struct CommandSettings {
     /// The outputs that are series.
     pub series: Vec<OutputSeries>,
     /// Positions of the requested outputs.
-    pub asked: Vec<usize>,
+    pub requested: Vec<usize>,
     /// Number of processes at once; the number of cores by default.
     pub workers: Option<usize>,
     /// Time limit for the reply to a row; none by default.
@@ -87,7 +90,7 @@ pub struct CommandSettings {
 ///     form: Form::KeptAlive(Protocol::Csv),
 ///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
 ///     series: Vec::new(),
-///     asked: vec![0],
+///     requested: vec![0],
 ///     workers: Some(2),
 ///     timeout: None,
 ///     retries: 1,
@@ -107,8 +110,6 @@ pub struct CommandModel {
     series: Vec<OutputSeries>,
     /// The names of all outputs of the program.
     names: Vec<String>,
-    /// How long it may be silent at its first row before a hint is given.
-    silence: Duration,
     state: State,
 }
 
@@ -122,12 +123,9 @@ struct State {
     /// The longest time to a reply, the start of its process included, in microseconds.
     slowest: AtomicU64,
     /// Whether hints on its silence, and on lines that are not replies, have been given.
-    hinted: AtomicBool,
-    strayed: AtomicBool,
+    hinted: OnceLock<()>,
+    strayed: OnceLock<()>,
 }
-
-/// How long a program without any reply may be silent before a hint is given.
-const SILENCE: Duration = Duration::from_secs(10);
 
 /// Maximum number of rows that may fail before the first reply.
 const MAX_FAILED_FIRST: u32 = 5;
@@ -150,29 +148,22 @@ impl State {
         }
         Err(RowFailure::new(&format!("the program has answered none of its first {MAX_FAILED_FIRST} rows: {reason}")))
     }
-
-    /// Sends `line`, unless `sent` is set already.
-    fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
-        if !sent.swap(true, Ordering::Relaxed) {
-            messages.send(line);
-        }
-    }
 }
 
 impl CommandModel {
     /// Creates the model whose inputs are `factors`, in their order, each in its unit.
     ///
     /// # Panics
-    /// If `asked` names a missing output.
+    /// If `requested` names a missing output.
     pub fn new(settings: CommandSettings, factors: Vec<Factor>) -> Self {
-        let output = |place: &usize| {
+        let outputs = settings.requested.iter().map(|place| {
             let CommandOutput { name, unit, .. } = &settings.outputs[*place];
             Output::new(name.clone(), unit.clone(), "of the program")
-        };
-        let outputs = settings.asked.iter().map(output).collect();
+        });
+        let outputs = outputs.collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
-        let series = OutputSeries::chosen(&settings.series, &settings.asked);
-        Self { settings, factors, outputs, series, names, silence: SILENCE, state: State::default() }
+        let series = OutputSeries::chosen(&settings.series, &settings.requested);
+        Self { settings, factors, outputs, series, names, state: State::default() }
     }
 }
 
@@ -186,8 +177,8 @@ impl Model for CommandModel {
     }
 
     fn concurrency(&self) -> Option<usize> {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        Some(self.settings.workers.unwrap_or_else(cores))
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        Some(self.settings.workers.unwrap_or(cores))
     }
 
     fn may_be_random(&self) -> bool {

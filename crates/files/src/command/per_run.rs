@@ -1,4 +1,4 @@
-//! A worker that runs a program once for each row, in a directory of its own.
+//! A worker that runs a program once for each row, each time in a separate directory.
 
 use std::fs::File;
 use std::io;
@@ -116,8 +116,8 @@ impl<'a> PerRunWorker<'a> {
 
     /// Returns whether some output is read from the file of that name.
     fn is_read(&self, name: &std::ffi::OsStr) -> bool {
-        let picks = self.model.settings.outputs.iter().filter_map(|output| output.pick.as_ref());
-        picks.into_iter().any(|pick| matches!(&pick.source, Source::File(file) if name == file.as_str()))
+        let mut picks = self.model.settings.outputs.iter().filter_map(|output| output.pick.as_ref());
+        picks.any(|pick| matches!(&pick.source, Source::File(file) if name == file.as_str()))
     }
 
     fn run_in(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> Result<(), Fault> {
@@ -152,8 +152,8 @@ impl<'a> PerRunWorker<'a> {
             if let Some(timeout) = self.model.settings.timeout.filter(|timeout| start.elapsed() >= *timeout) {
                 return Err(Fault::Run(format!("the program took longer than {}", seconds(timeout))));
             }
-            let size = |name| std::fs::metadata(directory.join(name)).map_or(0, |data| data.len());
-            if size(STDOUT).max(size(STDERR)) > MAX_BYTES {
+            let mut files = [STDOUT, STDERR].iter().map(|name| std::fs::metadata(directory.join(name)));
+            if files.any(|file| file.is_ok_and(|file| file.len() > MAX_BYTES)) {
                 return Err(Fault::Run("the program printed more than 256 MiB".to_owned()));
             }
             pause = (pause * 2).min(Duration::from_millis(50));
@@ -164,9 +164,9 @@ impl<'a> PerRunWorker<'a> {
     /// Sets the outputs of a successful run.
     fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let settings = &self.model.settings;
-        let (mut missing, mut found) = (None, false);
+        let (mut missing, mut has_value) = (None, false);
         let mut texts = Texts::new();
-        for (column, place) in settings.asked.iter().enumerate() {
+        for (column, place) in settings.requested.iter().enumerate() {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
             let number = match &pick.source {
@@ -177,7 +177,7 @@ impl<'a> PerRunWorker<'a> {
             };
             match number {
                 Ok(value) if value.is_finite() => {
-                    found = true;
+                    has_value = true;
                     batch.set(row, column, output.unit.to_si(value));
                 }
                 Ok(value) => batch.fail(row, column, not_a_value(value)),
@@ -187,7 +187,7 @@ impl<'a> PerRunWorker<'a> {
                 }
             }
         }
-        if found {
+        if has_value {
             self.model.state.note_answer(Duration::ZERO);
         }
         missing.map_or(Ok(()), |reason| self.model.state.note_failure(&reason))

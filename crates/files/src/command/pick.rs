@@ -16,7 +16,7 @@ pub struct Pick {
     /// The text that is read.
     pub source: Source,
     /// How the number is extracted.
-    pub way: Way,
+    pub method: PickMethod,
 }
 
 /// The source of a number.
@@ -72,8 +72,8 @@ impl Match {
 
 /// How a number is extracted from a text.
 #[derive(Debug, Clone)]
-pub enum Way {
-    /// The first group of a regular expression, or the whole match if it has none.
+pub enum PickMethod {
+    /// The first group of a regular expression, or all of the match if it has none.
     Regex(Regex, Match),
     /// A column of a CSV table with a header.
     Column(String, Match),
@@ -98,18 +98,19 @@ impl Source {
             Self::Stdout => (directory.join(STDOUT), "standard output".to_owned()),
             Self::File(name) => (directory.join(name), name.clone()),
         };
-        let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
-        match std::fs::metadata(&path) {
+        let reason = match std::fs::metadata(&path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return Err(format!("the run wrote no file `{file}`"));
             }
-            Err(error) => return Err(unreadable(error.to_string())),
-            Ok(data) if data.len() > MAX_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
-            Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
-            Ok(_) => (),
-        }
-        let bytes = read_whole(&path).map_err(|error| unreadable(error.to_string()))?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+            Err(error) => error.to_string(),
+            Ok(data) if data.len() > MAX_BYTES => "it has more than 256 MiB".to_owned(),
+            Ok(data) if !data.is_file() => "it is not a file".to_owned(),
+            Ok(_) => match read_whole(&path) {
+                Ok(bytes) => return Ok(String::from_utf8_lossy(&bytes).into_owned()),
+                Err(error) => error.to_string(),
+            },
+        };
+        Err(format!("`{file}` cannot be read: {reason}"))
     }
 }
 
@@ -117,18 +118,18 @@ impl Pick {
     /// Returns the number of a run; `texts` caches the texts that have been read. It may be non-finite, as written.
     pub(super) fn number(&self, directory: &Path, texts: &mut Texts) -> Result<f64, String> {
         let text = texts.entry(self.source.clone()).or_insert_with(|| self.source.text(directory));
-        self.way.number(text.as_deref().map_err(|reason| reason.clone())?, &self.source.in_words())
+        self.method.number(text.as_deref().map_err(|reason| reason.clone())?, &self.source.in_words())
     }
 
     /// Returns the pick of value number `number` of a series, from 0: the match, row or list item of that number.
     #[must_use]
     pub fn of_value(&self, number: usize) -> Self {
-        let way = match &self.way {
-            Way::Regex(regex, _) => Way::Regex(regex.clone(), Match::Number(number)),
-            Way::Column(column, _) => Way::Column(column.clone(), Match::Number(number)),
-            Way::Pointer(pointer) => Way::Pointer(format!("{pointer}/{number}")),
+        let method = match &self.method {
+            PickMethod::Regex(regex, _) => PickMethod::Regex(regex.clone(), Match::Number(number)),
+            PickMethod::Column(column, _) => PickMethod::Column(column.clone(), Match::Number(number)),
+            PickMethod::Pointer(pointer) => PickMethod::Pointer(format!("{pointer}/{number}")),
         };
-        Self { source: self.source.clone(), way }
+        Self { source: self.source.clone(), method }
     }
 }
 
@@ -138,59 +139,59 @@ pub(super) const STDOUT: &str = "stdout.txt";
 /// The texts of a run that have been read.
 pub(super) type Texts = BTreeMap<Source, Result<String, String>>;
 
-impl Way {
+impl PickMethod {
     /// Extracts the number from `text`, which is named `of` in errors.
     ///
     /// ```
-    /// use apportion_files::{Match, Way};
+    /// use apportion_files::{Match, PickMethod};
     ///
-    /// let way = Way::Pointer("/result/force".to_owned());
-    /// assert_eq!(way.number("{\"result\": {\"force\": 1.5}}", "it"), Ok(1.5));
-    /// let way = Way::Column("y".to_owned(), Match::Last);
-    /// assert_eq!(way.number("t,y\n0,1\n1,2.5\n", "it"), Ok(2.5));
+    /// let method = PickMethod::Pointer("/result/force".to_owned());
+    /// assert_eq!(method.number("{\"result\": {\"force\": 1.5}}", "it"), Ok(1.5));
+    /// let method = PickMethod::Column("y".to_owned(), Match::Last);
+    /// assert_eq!(method.number("t,y\n0,1\n1,2.5\n", "it"), Ok(2.5));
     /// ```
     ///
     /// # Errors
     /// A message if there is no number.
     pub fn number(&self, text: &str, of: &str) -> Result<f64, String> {
-        let missing = |missing: String| format!("{of} has no {missing}");
-        let found = match self {
+        let digits = match self {
             Self::Regex(regex, which) => {
                 let groups = which.select(regex.captures_iter(text));
-                let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
-                let none = || match which {
-                    Match::Number(_) => missing(which.in_words("match of the regex")),
-                    Match::First | Match::Last => format!("nothing in {of} matches the regex"),
-                };
-                found.ok_or_else(none)?.as_str().to_owned()
+                match (groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0))), which) {
+                    (Some(part), _) => part.as_str().to_owned(),
+                    (None, Match::Number(_)) => {
+                        return Err(format!("{of} has no {}", which.in_words("match of the regex")));
+                    }
+                    (None, _) => return Err(format!("nothing in {of} matches the regex")),
+                }
             }
             Self::Column(column, which) => cell(text, column, *which, of)?,
             Self::Pointer(pointer) => {
                 let value: Value = serde_json::from_str(text).map_err(|_| format!("{of} is not JSON"))?;
-                match value.pointer(pointer).ok_or_else(|| missing(format!("value at `{pointer}`")))? {
+                match value.pointer(pointer).ok_or_else(|| format!("{of} has no value at `{pointer}`"))? {
                     Value::Null => return Ok(f64::NAN),
                     Value::String(text) => text.clone(),
                     other => other.to_string(),
                 }
             }
         };
-        number(found.trim()).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
+        number(digits.trim()).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&digits)))
     }
 }
 
 /// Returns the cell of a column in one row of a CSV table.
 fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, String> {
-    let missing = |missing: String| format!("{of} has no {missing}");
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
-    let place = place.ok_or_else(|| missing(format!("column `{column}`")))?;
+    let place = place.ok_or_else(|| format!("{of} has no column `{column}`"))?;
     let row = which.select(reader.records().map_while(Result::ok));
     let row = row.ok_or_else(|| match which {
-        Match::Number(_) => missing(which.in_words("row")),
-        Match::First | Match::Last => missing("row".to_owned()),
+        Match::Number(_) => format!("{of} has no {}", which.in_words("row")),
+        Match::First | Match::Last => format!("{of} has no row"),
     })?;
-    let cell =
-        row.get(place).ok_or_else(|| missing(format!("cell of column `{column}` in its {}", which.in_words("row"))))?;
-    Ok(cell.to_owned())
+    match row.get(place) {
+        Some(cell) => Ok(cell.to_owned()),
+        None => Err(format!("{of} has no cell of column `{column}` in its {}", which.in_words("row"))),
+    }
 }

@@ -40,7 +40,7 @@ pub(super) struct Process {
     input: Option<Sender<String>>,
     events: Receiver<Event>,
     last_words: Arc<Mutex<String>>,
-    silence: Receiver<()>,
+    stderr_closed: Receiver<()>,
     /// Keeps the thread that started the process alive.
     keeper: Option<Sender<()>>,
 }
@@ -58,9 +58,9 @@ impl Process {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let (input, texts) = mpsc::channel::<String>();
         let (keeper, kept) = mpsc::channel::<()>();
-        let (tell, events) = mpsc::sync_channel(IN_TRANSIT * 2);
+        let (sender, events) = mpsc::sync_channel(IN_TRANSIT * 2);
         let (started, start) = mpsc::channel();
-        let of_writer = tell.clone();
+        let writer_sender = sender.clone();
         // This thread starts the process, since on Linux the process ends with the thread.
         thread::Builder::new().spawn(move || {
             let mut child = match command.spawn() {
@@ -70,7 +70,7 @@ impl Process {
             let stdin = child.stdin.take();
             if started.send(Ok(child)).is_ok() {
                 if let Some(stdin) = stdin {
-                    write_all(stdin, &texts, &of_writer);
+                    write_all(stdin, &texts, &writer_sender);
                 }
                 // Nothing is ever sent: the receiver notices that the sender is dropped.
                 let _ = kept.recv();
@@ -78,24 +78,24 @@ impl Process {
         })?;
         let mut child = start.recv().map_err(|_| io::Error::other("the thread that starts it has ended"))??;
         let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
-        let (hush, silence) = mpsc::channel();
+        let (stderr_open, stderr_closed) = mpsc::channel();
         let last_words = Arc::new(Mutex::new(String::new()));
         let process = Self {
             running: Running::new(child),
             input: Some(input),
             events,
             last_words,
-            silence,
+            stderr_closed,
             keeper: Some(keeper),
         };
         if let Some(stdout) = stdout {
-            thread::Builder::new().spawn(move || read_all(stdout, &tell))?;
+            thread::Builder::new().spawn(move || read_all(stdout, &sender))?;
         }
         if let Some(stderr) = stderr {
             let (messages, last) = (messages.clone(), Arc::clone(&process.last_words));
             thread::Builder::new().spawn(move || {
                 listen(&messages, stderr, &last);
-                drop(hush);
+                drop(stderr_open);
             })?;
         }
         Ok(process)
@@ -119,9 +119,9 @@ impl Process {
         let _ = self.input.as_ref().map(|input| input.send(text));
     }
 
-    /// Returns the next event, if it comes within `longest`.
-    pub(super) fn event(&self, longest: Duration) -> Option<Event> {
-        match self.events.recv_timeout(longest) {
+    /// Returns the next event, if it comes within `timeout`.
+    pub(super) fn event(&self, timeout: Duration) -> Option<Event> {
+        match self.events.recv_timeout(timeout) {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => Some(Event::Closed),
@@ -134,7 +134,7 @@ impl Process {
         let status = self.running.end();
         self.keeper = None;
         // Everything that it printed comes before this, unless a process outside its group still holds the pipe.
-        let _ = self.silence.recv_timeout(Duration::from_millis(300));
+        let _ = self.stderr_closed.recv_timeout(Duration::from_millis(300));
         let last_words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Ending { status, by_itself, last_words }
     }
@@ -151,19 +151,19 @@ impl Drop for Process {
     }
 }
 
-fn write_all(mut stdin: impl Write, texts: &Receiver<String>, tell: &SyncSender<Event>) {
+fn write_all(mut stdin: impl Write, texts: &Receiver<String>, sender: &SyncSender<Event>) {
     let mut open = true;
     for text in texts {
         // A process that reads no more may still reply to what it has read.
         open = open && stdin.write_all(text.as_bytes()).and_then(|()| stdin.flush()).is_ok();
-        if open && tell.send(Event::Sent).is_err() {
+        if open && sender.send(Event::Sent).is_err() {
             open = false;
         }
     }
 }
 
-fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
-    let mut listened_to = true;
+fn read_all(mut stdout: ChildStdout, sender: &SyncSender<Event>) {
+    let mut is_read = true;
     loop {
         let mut bytes = vec![0; BLOCK];
         match stdout.read(&mut bytes) {
@@ -171,14 +171,14 @@ fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
             Ok(count) => {
                 bytes.truncate(count);
                 // Output after the last row is dropped, but the process must not wait for it to be read.
-                listened_to = listened_to && tell.send(Event::Output(bytes)).is_ok();
+                is_read = is_read && sender.send(Event::Output(bytes)).is_ok();
             }
             Err(error) if error.kind() == io::ErrorKind::Interrupted => (),
             Err(_) => break,
         }
     }
-    if listened_to {
-        let _ = tell.send(Event::Closed);
+    if is_read {
+        let _ = sender.send(Event::Closed);
     }
 }
 
@@ -197,19 +197,19 @@ pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<Stri
         };
         for &byte in &bytes[..count] {
             match byte {
-                b'\n' => take(messages, &mut line, last),
+                b'\n' => take_line(messages, &mut line, last),
                 _ if line.len() < LONGEST => line.push(byte),
                 // The rest of a long line is dropped.
                 _ => (),
             }
         }
         if count == 0 {
-            return take(messages, &mut line, last);
+            return take_line(messages, &mut line, last);
         }
     }
 }
 
-fn take(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
+fn take_line(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
     let text = String::from_utf8_lossy(line).into_owned();
     line.clear();
     if !text.trim().is_empty() {

@@ -1,4 +1,4 @@
-//! The user's own program as a child process: started without a shell, ended with all processes it started.
+//! The user's program as a child process: started without a shell, ended with all processes it started.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ impl Program {
         is_path.then(|| self.directory.join(self.name()))
     }
 
-    /// Builds a command in a process group of its own, in `directory`.
+    /// Builds a command in a new process group, in `directory`.
     pub(super) fn command(&self, directory: &Path) -> Command {
         let mut command = Command::new(self.file().unwrap_or_else(|| self.name().into()));
         command.args(self.arguments.iter().skip(1)).current_dir(directory);
@@ -66,7 +66,7 @@ impl Program {
 }
 
 /// Returns the existing files among the program and its arguments, without the files that the program reads or imports.
-pub fn program_files(program: &Program) -> Vec<PathBuf> {
+pub(crate) fn program_files(program: &Program) -> Vec<PathBuf> {
     let arguments = program.arguments.iter().enumerate();
     // A program without a slash is searched for in PATH.
     let arguments = arguments.filter(|(place, _)| *place > 0 || program.file().is_some());
@@ -82,34 +82,40 @@ pub fn program_files(program: &Program) -> Vec<PathBuf> {
 fn isolate(command: &mut Command) {
     use std::os::unix::process::CommandExt;
     command.process_group(0);
-    let as_usual = || {
-        // An ignored signal stays ignored in a child; the default action lets a program beyond its limits end as usual.
-        // SAFETY: no handler is installed.
-        #[allow(unsafe_code)]
-        unsafe {
-            libc::signal(libc::SIGXFSZ, libc::SIG_DFL);
-        }
-        Ok(())
-    };
-    // SAFETY: between fork and exec the closure makes one system call and neither allocates nor locks.
+    // SAFETY: between fork and exec the function makes one system call and neither allocates nor locks.
     #[allow(unsafe_code)]
     unsafe {
-        command.pre_exec(as_usual);
+        command.pre_exec(reset_sigxfsz);
     }
     #[cfg(target_os = "linux")]
     {
         let parent = rustix::process::getpid();
-        let follow = move || {
-            rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))?;
-            // The engine may have ended in between.
-            if rustix::process::getppid() == Some(parent) { Ok(()) } else { Err(io::ErrorKind::Interrupted.into()) }
-        };
         // SAFETY: between fork and exec the closure makes two system calls and neither allocates nor locks.
         #[allow(unsafe_code)]
         unsafe {
-            command.pre_exec(follow);
+            command.pre_exec(move || end_with(parent));
         }
     }
+}
+
+/// Restores the default action of a signal that the engine ignores, and a child would too: a program that exceeds its
+/// limit of file sizes ends.
+#[cfg(unix)]
+fn reset_sigxfsz() -> io::Result<()> {
+    // SAFETY: no handler is installed.
+    #[allow(unsafe_code)]
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_DFL);
+    }
+    Ok(())
+}
+
+/// Makes the system end this process when the thread that started it ends.
+#[cfg(target_os = "linux")]
+fn end_with(parent: rustix::process::Pid) -> io::Result<()> {
+    rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))?;
+    // The engine may have ended in between.
+    if rustix::process::getppid() == Some(parent) { Ok(()) } else { Err(io::ErrorKind::Interrupted.into()) }
 }
 
 #[cfg(not(unix))]
@@ -132,10 +138,12 @@ impl Running {
     #[cfg(unix)]
     pub(super) fn has_ended(&mut self) -> bool {
         use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+        if self.ended.is_some() {
+            return true;
+        }
         let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
         // An error: the child does not exist any more.
-        let ended = || waitid(WaitId::Pid(Pid::from_child(&self.child)), options).map_or(true, |s| s.is_some());
-        self.ended.is_some() || ended()
+        waitid(WaitId::Pid(Pid::from_child(&self.child)), options).map_or(true, |status| status.is_some())
     }
 
     #[cfg(not(unix))]
@@ -143,11 +151,11 @@ impl Running {
         self.ended.is_some() || !matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Waits at most `longest` until it has ended by itself, and returns whether it has.
-    pub(super) fn ends_within(&mut self, longest: Duration) -> bool {
+    /// Waits at most `timeout` until it has ended by itself, and returns whether it has.
+    pub(super) fn ends_within(&mut self, timeout: Duration) -> bool {
         let (start, mut pause) = (Instant::now(), Duration::from_micros(200));
         while !self.has_ended() {
-            if start.elapsed() >= longest {
+            if start.elapsed() >= timeout {
                 return false;
             }
             std::thread::sleep(pause);
@@ -156,7 +164,7 @@ impl Running {
         true
     }
 
-    /// Ends it and its whole group, if they have not ended, and returns how the program itself ended.
+    /// Ends it and its group, if they have not ended, and returns how the program itself ended.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if let Some(status) = self.ended {
             return status;

@@ -41,34 +41,32 @@ named! {
 ///
 /// # Errors
 /// The expected and the found text, if the line has no row number.
-pub fn parse_answer(
-    protocol: Protocol,
-    outputs: &[String],
-    line: &[u8],
-) -> Result<(u64, Result<Vec<f64>, String>), String> {
-    let found = |words: String| format!("expected {}, found {words}", expected(protocol, outputs));
-    let text = std::str::from_utf8(line).map_err(|_| found("a line that is not text in UTF-8".to_owned()))?.trim();
-    if text.is_empty() {
-        return Err(found("an empty line".to_owned()));
-    }
-    let no_number = || found(format!("`{}`", cut(text, MAX_LETTERS)));
-    let (number, answer) = match protocol {
-        Protocol::Csv => {
-            let (number, rest) = text.split_once(',').ok_or_else(no_number)?;
-            let number = whole(number.trim().trim_matches('"')).ok_or_else(no_number)?;
-            (number, csv_answer(outputs, rest.trim()))
-        }
+pub fn parse_answer(protocol: Protocol, outputs: &[String], line: &[u8]) -> Result<(u64, Answer), String> {
+    let text = match std::str::from_utf8(line).map(str::trim) {
+        Ok("") => return Err(unexpected(protocol, outputs, "an empty line")),
+        Ok(text) => text,
+        Err(_) => return Err(unexpected(protocol, outputs, "a line that is not text in UTF-8")),
+    };
+    let numbered = match protocol {
+        Protocol::Csv => text.split_once(',').and_then(|(number, rest)| {
+            Some((row_number(number.trim().trim_matches('"'))?, csv_answer(outputs, rest.trim())))
+        }),
         Protocol::JsonLines => {
-            let parsed = json(text).map_err(&found)?;
+            let parsed = json(text).map_err(|words| unexpected(protocol, outputs, &words))?;
             let number = match parsed.get("id") {
-                Some(Value::Number(number)) => whole(&number.to_string()),
-                Some(Value::String(text)) => whole(text),
+                Some(Value::Number(number)) => row_number(&number.to_string()),
+                Some(Value::String(text)) => row_number(text),
                 _ => None,
             };
-            (number.ok_or_else(no_number)?, json_answer(outputs, &parsed))
+            number.map(|number| (number, json_answer(outputs, &parsed)))
         }
     };
-    Ok((number, answer.unwrap_or_else(|words| Err(format!("not an answer: {}", found(words))))))
+    let Some((number, answer)) = numbered else {
+        return Err(unexpected(protocol, outputs, &format!("`{}`", cut(text, MAX_LETTERS))));
+    };
+    let answer =
+        answer.unwrap_or_else(|words| Err(format!("not an answer: {}", unexpected(protocol, outputs, &words))));
+    Ok((number, answer))
 }
 
 /// Returns whether a line would be the reply to a row if it had a row number.
@@ -87,17 +85,19 @@ pub(super) fn is_answer_without_number(protocol: Protocol, outputs: &[String], l
 const MAX_LETTERS: usize = 100;
 
 /// Parses a row number as languages write it: `711953`, and also `711953.0` and `7.11953e5`.
-fn whole(text: &str) -> Option<u64> {
+fn row_number(text: &str) -> Option<u64> {
     let value: f64 = text.parse().ok()?;
     ((0.0..1e15).contains(&value) && value.fract() == 0.0).then_some(value as u64)
 }
 
-fn expected(protocol: Protocol, outputs: &[String]) -> String {
-    match (protocol, outputs) {
+/// Describes the expected and the found text of a line.
+fn unexpected(protocol: Protocol, outputs: &[String], found: &str) -> String {
+    let expected = match (protocol, outputs) {
         (Protocol::Csv, [_]) => "the row's number and a number, separated by a comma".to_owned(),
         (Protocol::Csv, _) => format!("the row's number and {} numbers, separated by commas", outputs.len()),
         (Protocol::JsonLines, _) => format!("a JSON object with id (the row's number), {}", keys_in_words(outputs)),
-    }
+    };
+    format!("expected {expected}, found {found}")
 }
 
 /// Parses `text` as a reply; the error describes it if it is not one.
@@ -105,8 +105,9 @@ fn csv_answer(outputs: &[String], text: &str) -> Result<Answer, String> {
     if let Some(reason) = text.strip_prefix("error:") {
         return Ok(failed(reason));
     }
-    let value = |cell: &str| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() };
-    let values: Option<Vec<f64>> = text.split(',').map(|cell| value(cell.trim())).collect();
+    let cells = text.split(',').map(str::trim);
+    let values: Option<Vec<f64>> =
+        cells.map(|cell| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }).collect();
     match values {
         Some(values) if values.len() == outputs.len() => Ok(Ok(values)),
         Some(values) => {
@@ -170,16 +171,19 @@ pub(super) struct Column {
 
 /// Returns the columns of `factors`, with texts as `quoted` writes them.
 pub(super) fn columns(factors: &[Factor], quoted: &dyn Fn(&str) -> String) -> Vec<Column> {
-    let column = |factor: &Factor| {
+    let mut columns = Vec::with_capacity(factors.len());
+    for factor in factors {
         let mut kind = factor_column(factor);
         kind.name = quoted(&kind.name);
         // `true` and `false` are values in JSON.
         if factor.distribution().name() != "boolean" {
-            kind.labels.iter_mut().for_each(|(label, _)| *label = quoted(label));
+            for (label, _) in &mut kind.labels {
+                *label = quoted(label);
+            }
         }
-        Column { kind, unit: factor.unit().clone() }
-    };
-    factors.iter().map(column).collect()
+        columns.push(Column { kind, unit: factor.unit().clone() });
+    }
+    columns
 }
 
 impl Column {
@@ -197,13 +201,13 @@ impl Column {
 
 /// Formats a row of SI values of `columns` without quotes as a table of CSV with a header.
 pub(super) fn table(columns: &[Column], inputs: &[&[f64]], row: usize) -> String {
-    let cell = |(column, values): (&Column, &&[f64])| {
+    let (mut names, mut cells) = (Vec::new(), Vec::new());
+    for (column, values) in columns.iter().zip(inputs) {
         let mut cell = String::new();
         column.write(values[row], &mut cell);
-        in_csv(&cell)
-    };
-    let cells: Vec<String> = columns.iter().zip(inputs).map(cell).collect();
-    let names: Vec<String> = columns.iter().map(|column| in_csv(&column.kind.name)).collect();
+        names.push(in_csv(&column.kind.name));
+        cells.push(in_csv(&cell));
+    }
     format!("{}\n{}\n", names.join(","), cells.join(","))
 }
 

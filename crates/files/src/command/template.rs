@@ -36,12 +36,12 @@ pub struct TemplateError {
     /// Column in characters, from 1.
     pub column: usize,
     /// The problem.
-    pub problem: TemplateProblem,
+    pub(crate) problem: TemplateProblem,
 }
 
 /// A problem of a template.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum TemplateProblem {
+pub(crate) enum TemplateProblem {
     /// A placeholder without an end.
     #[error("`{{{{` without `}}}}` on the same line: write `{{{{{{{{` for two braces that are part of the text")]
     Open,

@@ -21,7 +21,7 @@ use super::table::{Missing, column_of};
 pub struct AnswersRequest<'a> {
     /// The manifest of the design.
     pub manifest: &'a Manifest,
-    /// Output columns; empty for the study's own if present, or else for all that are not factors.
+    /// Output columns; empty for those of the study if present, or else for all that are not factors.
     pub outputs: &'a [String],
     /// Units of outputs, by column; others have the study's unit, or none.
     pub units: &'a [(String, Unit)],
@@ -32,7 +32,7 @@ pub struct AnswersRequest<'a> {
 /// The outputs of all rows of a design.
 #[derive(Debug)]
 pub struct Answers {
-    /// The study: that of the manifest, with an external model unless the outputs are those of its own model.
+    /// The study: that of the manifest, with an external model unless the outputs are those of its model.
     pub study: Study,
     /// The outputs.
     pub store: Store,
@@ -49,8 +49,8 @@ pub struct Answers {
 pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
     let mut study = request.manifest.study()?;
     let columns = Columns::find(reader, &study, request)?;
-    let own = subject(&study, &columns.outputs, request)?;
-    study = study.with_subject(own);
+    let subject = subject(&study, &columns.outputs, request)?;
+    study = study.with_subject(subject);
     let (space, design, model) = (study.space(), study.design(), study.model());
     let store = Store::new(model.as_ref());
     let wanted = columns.wanted(space);
@@ -59,10 +59,12 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         add_rows(&mut digest, points);
         let expected = (rows.end - rows.start) as usize;
         let count = reader.read(&wanted, expected, &mut cells)?;
-        let (answers, found) = cells.split_at(columns.outputs.len());
-        let pairs = columns.factors.iter().zip(found);
-        let pairs = pairs.map(|((_, factor), found)| (&space.factors()[*factor], &found[..count], &points[*factor]));
-        compare(pairs.collect(), row)?;
+        let (answers, points_in_file) = cells.split_at(columns.outputs.len());
+        for place in 0..count {
+            for ((_, factor), values) in columns.factors.iter().zip(points_in_file) {
+                compare(&space.factors()[*factor], values[place], points[*factor][place], row + place as u64 + 1)?;
+            }
+        }
         row += count as u64;
         if count < expected {
             return refused(format!("the file has {row} rows, but the design has {}", design.rows()));
@@ -100,9 +102,9 @@ fn fill(
             let si = output.unit.to_si(column[row]);
             if !si.is_finite() {
                 if missing == Missing::Refuse {
-                    let what = match column[row] {
-                        found if found.is_nan() => "the value is missing".to_owned(),
-                        found => format!("{found} is not a finite number"),
+                    let what = match column[row].is_nan() {
+                        true => "the value is missing".to_owned(),
+                        false => format!("{} is not a finite number", column[row]),
                     };
                     let (row, name) = (before + row as u64 + 1, &output.name);
                     return refused(format!(
@@ -117,19 +119,16 @@ fn fill(
     Ok(())
 }
 
-/// Checks that the values found of some factors are those of the design, in a block that follows `before` rows.
-fn compare(factors: Vec<(&Factor, &[f64], &Vec<f64>)>, before: u64) -> Result<(), TableError> {
-    let rows = factors.first().map_or(0, |(_, found, _)| found.len());
-    let differs = |row: usize| factors.iter().find(|(_, found, points)| !is_same(found[row], points[row]));
-    let Some((row, (factor, found, points))) = (0..rows).find_map(|row| Some((row, differs(row)?))) else {
+/// Checks that the value of a factor in a row of the file is that of the design.
+fn compare(factor: &Factor, value: f64, expected: f64, row: u64) -> Result<(), TableError> {
+    if is_same(value, expected) {
         return Ok(());
-    };
-    let words = |value: f64| match value.is_nan() {
+    }
+    let [found, expected] = [value, expected].map(|value| match value.is_nan() {
         true => "an empty cell".to_owned(),
         false => factor.in_words(value, |number| number.to_string()),
-    };
-    let (found, expected) = (words(found[row]), words(points[row]));
-    let (row, name) = (before + row as u64 + 1, &factor.name);
+    });
+    let name = &factor.name;
     refused(format!(
         "row {row}, column `{name}`: found {found}, but the design has {expected}: rows are missing, repeated or in another \
          order, or the points were changed, were printed with less than ten digits, or belong to another design"
@@ -146,24 +145,28 @@ struct Columns {
 
 impl Columns {
     pub fn find(reader: &dyn RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, TableError> {
-        let own: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
+        let stated: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
         let factors = study.space().factors();
         let Some(names) = reader.names() else {
-            let outputs = if request.outputs.is_empty() { own } else { request.outputs.to_vec() };
+            let outputs = if request.outputs.is_empty() { stated } else { request.outputs.to_vec() };
             let first = first_output(reader.width(), factors.len(), outputs.len())?;
             let factors = (0..first).map(|place| (place, place)).collect();
             return Ok(Self { outputs: (first..).zip(outputs).collect(), factors });
         };
-        let is_factor = |name: &str| factors.iter().position(|factor| factor.name == name);
-        let own_are_there = own.iter().all(|name| names.contains(name) && is_factor(name).is_none());
-        let asked = match request.outputs {
-            [] if own_are_there || study.subject().is_external() => own,
-            [] => names.iter().filter(|name| is_factor(name).is_none()).cloned().collect(),
-            asked => asked.to_vec(),
+        let (mut columns, mut others) = (Vec::new(), Vec::new());
+        for (place, name) in names.iter().enumerate() {
+            match factors.iter().position(|factor| factor.name == *name) {
+                Some(factor) => columns.push((place, factor)),
+                None => others.push(name.clone()),
+            }
+        }
+        let outputs = match request.outputs {
+            [] if study.subject().is_external() || stated.iter().all(|name| others.contains(name)) => stated,
+            [] => others,
+            outputs => outputs.to_vec(),
         };
-        let outputs = output_columns(names, &asked, &|name| is_factor(name).is_some())?;
-        let factors = names.iter().enumerate().filter_map(|(place, name)| Some((place, is_factor(name)?))).collect();
-        Ok(Self { outputs, factors })
+        let outputs = output_columns(names, &outputs, &|name| factors.iter().any(|factor| factor.name == name))?;
+        Ok(Self { outputs, factors: columns })
     }
 
     /// Returns the columns to read.
@@ -174,27 +177,29 @@ impl Columns {
     }
 }
 
-/// Returns the columns of the outputs `asked`, none of which may be an input or repeated.
+/// Returns the columns of `outputs`, none of which may be an input or repeated.
 ///
 /// # Errors
 /// [`TableError`] if there is none, or one is not among `names`.
 pub fn output_columns(
     names: &[String],
-    asked: &[String],
+    outputs: &[String],
     is_input: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<(usize, String)>, TableError> {
-    if asked.is_empty() {
-        let known = names.join(", ");
-        return refused(format!("the file has no outputs: its columns are the factors {known}"));
+    if outputs.is_empty() {
+        return refused(format!("the file has no outputs: its columns are the factors {}", names.join(", ")));
     }
-    let column = |(number, name): (usize, &String)| {
-        if is_input(name) || asked[..number].contains(name) {
-            let what = if is_input(name) { "is a factor, not an output" } else { "is listed twice as an output" };
-            return refused(format!("`{name}` {what}"));
+    let mut columns: Vec<(usize, String)> = Vec::with_capacity(outputs.len());
+    for name in outputs {
+        if is_input(name) {
+            return refused(format!("`{name}` is a factor, not an output"));
         }
-        Ok((column_of(names, name)?, name.clone()))
-    };
-    asked.iter().enumerate().map(column).collect()
+        if columns.iter().any(|(_, other)| other == name) {
+            return refused(format!("`{name}` is listed twice as an output"));
+        }
+        columns.push((column_of(names, name)?, name.clone()));
+    }
+    Ok(columns)
 }
 
 /// Returns the first column that is an output in a file without column names.
@@ -212,46 +217,48 @@ pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usiz
     }
 }
 
-/// Returns the study's own model if the outputs are its own, else an external model with these outputs.
+/// Returns the study's model if the outputs are its outputs, else an external model with these outputs.
 fn subject(
     study: &Study,
     columns: &[(usize, String)],
     request: &AnswersRequest<'_>,
 ) -> Result<Arc<dyn Subject>, TableError> {
     let model = study.model();
-    let own = model.outputs();
-    if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
-        let known = columns.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
-        return refused(format!("a unit is given for `{name}`, which is not an output; the outputs are {known}"));
+    let stated = model.outputs();
+    let names: Vec<&str> = columns.iter().map(|(_, name)| name.as_str()).collect();
+    if let Some((name, _)) = request.units.iter().find(|(name, _)| !names.contains(&name.as_str())) {
+        let outputs = names.join(", ");
+        return refused(format!("a unit is given for `{name}`, which is not an output; the outputs are {outputs}"));
     }
-    let wrong = |name: &String| Some((shown(name), refused_output_name(name)?));
-    if let Some((name, expected)) = columns.iter().find_map(|(_, name)| wrong(name)) {
-        return refused(format!("the name {name} of an output: expected {expected}"));
-    }
-    let names = columns.iter().map(|(_, name)| name);
-    if request.units.is_empty() && names.clone().eq(own.iter().map(|output| &*output.name)) {
-        return Ok(study.subject().clone());
-    }
-    for (name, unit) in request.units {
-        let stated = own.iter().find(|output| output.name == *name).map(|output| &output.unit);
-        if let Some(own) = stated.filter(|own| own.is_of_kind() && !own.compatible(unit)) {
-            let kind = if unit.is_label() { "is unknown".to_owned() } else { format!("measures {}", unit.dimension()) };
-            let own_kind = own.dimension();
-            return refused(format!(
-                "the unit `{unit}` is given for `{name}`, and {kind}: the study says `{own}`, so expected a unit of the same \
-                 kind ({own_kind})"
-            ));
+    for name in &names {
+        if let Some(expected) = refused_output_name(name) {
+            return refused(format!("the name {} of an output: expected {expected}", shown(name)));
         }
     }
-    let output = |name: &String| {
-        let stated = own.iter().find(|output| output.name == *name);
-        let unit = request.units.iter().find(|(known, _)| known == name).map(|(_, unit)| unit.clone());
-        let unit = unit.or_else(|| stated.map(|output| output.unit.clone())).unwrap_or_else(Unit::dimensionless);
-        Output::new(name.clone(), unit, "read from a file")
-    };
+    if request.units.is_empty() && stated.iter().map(|output| &*output.name).eq(names.iter().copied()) {
+        return Ok(study.subject().clone());
+    }
+    let (mut outputs, mut places) = (Vec::new(), Vec::new());
+    for name in names {
+        let place = stated.iter().position(|output| *output.name == *name);
+        let stated = place.map(|place| &stated[place].unit);
+        let unit = request.units.iter().find(|(output, _)| output == name).map(|(_, unit)| unit);
+        if let (Some(unit), Some(stated)) = (unit, stated)
+            && stated.is_of_kind()
+            && !stated.compatible(unit)
+        {
+            let kind = if unit.is_label() { "is unknown".to_owned() } else { format!("measures {}", unit.dimension()) };
+            return refused(format!(
+                "the unit `{unit}` is given for `{name}`, and {kind}: the study says `{stated}`, so expected a unit of the \
+                 same kind ({})",
+                stated.dimension()
+            ));
+        }
+        let unit = unit.or(stated).cloned().unwrap_or_else(Unit::dimensionless);
+        outputs.push(Output::new(name.to_owned(), unit, "read from a file"));
+        places.push(place.unwrap_or(usize::MAX));
+    }
     // The study's series that are complete in the file stay series, even in other units.
-    let place = |name: &String| own.iter().position(|output| output.name == *name).unwrap_or(usize::MAX);
-    let places: Vec<usize> = names.clone().map(place).collect();
     let series = OutputSeries::chosen(model.series(), &places);
-    Ok(Arc::new(ExternalSubject { outputs: names.map(output).collect(), series }))
+    Ok(Arc::new(ExternalSubject { outputs, series }))
 }

@@ -100,7 +100,7 @@ pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
     Design::new(settings, study.design().factors(), of_design)
 }
 
-/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
+/// Writes the first `max_rows` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
 /// of their numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
 ///
 /// With a store, each row is followed by its outputs in their units; a failed output is an empty cell (CSV) or NaN
@@ -112,15 +112,15 @@ pub fn write_rows(
     study: &Study,
     design: &Design,
     store: Option<&Store>,
-    most: u64,
+    max_rows: u64,
     format: Format,
     out: &mut dyn Write,
 ) -> std::io::Result<String> {
     let (space, model) = (study.space(), study.model());
     let outputs = if store.is_some() { model.outputs() } else { &[] };
-    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), most)?;
+    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), max_rows)?;
     let mut answers = vec![Vec::new(); outputs.len()];
-    let (mut digest, mut left) = (Sha256::default(), most);
+    let (mut digest, mut left) = (Sha256::default(), max_rows);
     each_block(space, design, |replicate, rows, points| {
         let count = left.min(rows.end - rows.start);
         left -= count;

@@ -70,9 +70,9 @@ pub fn evaluate(
     let model = study.model();
     let factors = study.space().factors();
     let run = TableRun::new(model.as_ref(), context, 0);
-    let most = run.rows_at_once();
+    let max_rows = run.rows_at_once();
     let mut batch = Batch::new(model.as_ref());
-    let mut columns = vec![Vec::with_capacity(most); factors.len()];
+    let mut columns = vec![Vec::with_capacity(max_rows); factors.len()];
     let mut evaluated = Evaluated {
         skipped: reader.skipped.clone(),
         nominal: (0..factors.len()).filter(|factor| !reader.factors.contains(factor)).collect(),
@@ -81,7 +81,7 @@ pub fn evaluate(
     let copied: &[Factor] = if with_points { factors } else { &[] };
     let mut writer = RowWriter::new(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
     loop {
-        let rows = reader.read(factors, most, &mut columns)?;
+        let rows = reader.read(factors, max_rows, &mut columns)?;
         if rows == 0 {
             break;
         }
@@ -142,27 +142,26 @@ impl<'a> PointsReader<'a> {
     /// # Errors
     /// [`TableError`] if there are no names, or one of them is unknown.
     pub fn new(rows: &'a mut dyn RowReader, space: &Space) -> Result<Self, TableError> {
-        let known = || space.factors().iter().map(|factor| factor.name.as_str());
-        let known_text = || known().collect::<Vec<_>>().join(", ");
+        let valid: Vec<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
         let Some(names) = rows.names().map(<[String]>::to_vec) else {
             return refused(format!(
                 "its {} columns have no names: name the factors in their order (--names), out of {}",
                 rows.width(),
-                known_text()
+                valid.join(", ")
             ));
         };
         let (mut wanted, mut factors, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
         for (place, name) in names.into_iter().enumerate() {
-            if let Some(factor) = known().position(|factor| factor == name) {
+            if let Some(factor) = valid.iter().position(|factor| *factor == name) {
                 wanted.push((place, factor_column(&space.factors()[factor])));
                 factors.push(factor);
             } else if rows.text_columns()?.iter().any(|(text, _)| *text == place) {
                 skipped.push(name);
             } else {
-                let (column, hint) = (place + 1, did_you_mean(&nearest(&name, known())));
+                let (column, hint) = (place + 1, did_you_mean(&nearest(&name, valid.iter().copied())));
                 return refused(format!(
                     "column {column}: `{name}` is not a factor of the study{hint}; its factors are {}",
-                    known_text()
+                    valid.join(", ")
                 ));
             }
         }
@@ -183,7 +182,7 @@ impl<'a> PointsReader<'a> {
         }
         for ((cells, (place, _)), factor) in self.cells.iter().zip(&self.wanted).zip(&self.factors) {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
-                let found = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
+                let cell = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
                 let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
                 let (column, factor) = (place + 1, &factors[*factor]);
                 let expected = match factor.distribution().labels() {
@@ -191,7 +190,7 @@ impl<'a> PointsReader<'a> {
                     None => format!("a finite number in {}", factor.unit()),
                 };
                 let name = &factor.name;
-                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {found}"));
+                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {cell}"));
             }
             columns[*factor].copy_from_slice(cells);
         }

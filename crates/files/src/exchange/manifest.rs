@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::design::{Matrix, Run};
+use apportion::design::Matrix;
 use apportion::study::{Study, Target};
 use serde::{Deserialize, Serialize};
 
@@ -12,81 +12,81 @@ use super::error::{TableError, refused};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     /// `"apportion-design"`.
-    pub format: String,
+    format: String,
     /// 1.
-    pub version: u32,
+    version: u32,
     /// Version of the program that wrote it.
-    pub apportion_version: String,
+    apportion_version: String,
     /// The study.
-    pub study: ManifestStudy,
+    study: ManifestStudy,
     /// The rows of the design file.
-    pub design: ManifestDesign,
+    design: ManifestDesign,
     /// The columns of the design file.
-    pub factors: Vec<ManifestFactor>,
+    factors: Vec<ManifestFactor>,
 }
 
 /// The study of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestStudy {
+struct ManifestStudy {
     /// Its name.
-    pub name: String,
+    name: String,
     /// Its file, as named on the command line.
-    pub file: String,
+    file: String,
     /// SHA-256 of the file.
-    pub sha256: String,
+    sha256: String,
     /// Changes made on the command line.
-    pub overrides: Vec<String>,
+    overrides: Vec<String>,
     /// The text of the file, unchanged.
-    pub text: String,
+    text: String,
 }
 
 /// The rows of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestDesign {
+struct ManifestDesign {
     /// The sampler.
-    pub sampler: String,
+    sampler: String,
     /// The seed.
-    pub seed: u64,
+    seed: u64,
     /// Number of independent randomisations.
-    pub replicates: u64,
+    replicates: u64,
     /// Total number of base samples.
-    pub base_samples: u64,
+    base_samples: u64,
     /// Number of rows of each base sample.
-    pub rows_per_point: u64,
+    rows_per_point: u64,
     /// Total number of rows.
-    pub rows: u64,
+    rows: u64,
     /// The order of the rows, in words.
-    pub order: String,
+    order: String,
     /// The rows of a base sample.
-    pub layout: Vec<ManifestRun>,
+    layout: Vec<ManifestRun>,
     /// SHA-256 of the numbers, row by row, each as a little-endian double.
-    pub sha256: String,
+    sha256: String,
 }
 
 /// A row of a base sample: that of the matrix `base`, with `columns` from the matrix `from`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestRun {
+struct ManifestRun {
     /// A, B, or "plain 1" and so on for rows that serve only surrogates.
-    pub base: String,
+    base: String,
     /// Names of factors.
-    pub columns: Vec<String>,
+    columns: Vec<String>,
     /// Likewise.
-    pub from: String,
+    from: String,
     /// Names of dependent factors that come from neither matrix, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub following: Vec<String>,
+    following: Vec<String>,
 }
 
 /// A column of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ManifestFactor {
+struct ManifestFactor {
     /// The factor, which is the header of its column.
-    pub name: String,
+    name: String,
     /// The unit of its values.
-    pub unit: String,
+    unit: String,
     /// The labels of a factor of categories.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub labels: Option<Vec<String>>,
+    labels: Option<Vec<String>>,
 }
 
 const FORMAT: &str = "apportion-design";
@@ -96,14 +96,14 @@ impl Manifest {
     /// Creates the manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
     pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
         let settings = study.design().settings();
-        let column = |column: &usize| study.space().factors()[*column].name.clone();
-        let run = |run: &Run| ManifestRun {
+        let factors = study.space().factors();
+        let layout = study.design().runs().iter().map(|run| ManifestRun {
             base: matrix(run.base),
-            columns: run.columns.iter().map(column).collect(),
+            columns: run.columns.iter().map(|factor| factors[*factor].name.clone()).collect(),
             from: matrix(run.from),
-            following: run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
-        };
-        let factors = study.space().factors().iter().map(|factor| ManifestFactor {
+            following: run.mixed.iter().map(|(factor, _)| factors[*factor].name.clone()).collect(),
+        });
+        let factors = factors.iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),
             unit: factor.unit().to_string(),
             labels: factor.distribution().labels().map(<[String]>::to_vec),
@@ -129,11 +129,16 @@ impl Manifest {
                 order: "replicate by replicate, base point by base point, the rows of `layout` of each: the row of \
                         matrix `base` with `columns` of matrix `from`"
                     .to_owned(),
-                layout: study.design().runs().iter().map(run).collect(),
+                layout: layout.collect(),
                 sha256,
             },
             factors: factors.collect(),
         }
+    }
+
+    /// Returns whether it describes the design of the study of that name, with that number of factors.
+    pub fn describes(&self, study: &str, factors: usize) -> bool {
+        self.study.name == study && self.factors.len() == factors
     }
 
     /// Returns the path of the manifest of the design file `design`: next to it.
@@ -153,14 +158,16 @@ impl Manifest {
     /// # Errors
     /// [`TableError`] if it is not a manifest, or of a later version.
     pub fn parse(text: &str) -> Result<Self, TableError> {
-        let not_one = |reason: &dyn std::fmt::Display| format!("not a manifest of a design: {reason}");
-        let manifest: Self = serde_json::from_str(text).map_err(|error| TableError::Refused(not_one(&error)))?;
+        let manifest: Self = serde_json::from_str(text)
+            .map_err(|error| TableError::Refused(format!("not a manifest of a design: {error}")))?;
         match (manifest.format.as_str(), manifest.version) {
             (FORMAT, ..=VERSION) => Ok(manifest),
             (FORMAT, later) => refused(format!(
                 "format version {later} of the manifest is unknown: this program reads versions up to {VERSION}"
             )),
-            (other, _) => refused(not_one(&format!("its format is {other:?}, expected \"{FORMAT}\""))),
+            (other, _) => {
+                refused(format!("not a manifest of a design: its format is {other:?}, expected \"{FORMAT}\""))
+            }
         }
     }
 
@@ -179,9 +186,9 @@ impl Manifest {
         let study = crate::parse_study(text, Path::new(file), overrides)
             .map_err(|error| TableError::Refused(format!("the study in the manifest: {error}")))?;
         if study.sha256() != *sha256 {
-            let found = study.sha256();
+            let actual = study.sha256();
             return refused(format!(
-                "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {found}, not {sha256}"
+                "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {actual}, not {sha256}"
             ));
         }
         if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {

@@ -12,19 +12,11 @@ mod manifest;
 mod rows;
 mod table;
 
-pub use answers::{AnswersRequest, read_answers};
-pub use design_rows::{random_design, sample, write_rows};
+pub use answers::{Answers, AnswersRequest, first_output, output_columns, read_answers};
+pub use design_rows::{factor_column, random_design, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
 pub(crate) use rows::number;
-pub use rows::{Format, ReadOptions, RowReader, open_table};
-pub use table::{Missing, Selection, Table, read_table};
-// Other items that the program and the tests use.
-pub use {
-    answers::{Answers, first_output, output_columns},
-    design_rows::factor_column,
-    manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    rows::{ColumnKind, RowWriter, table_of_bytes},
-    table::DroppedRows,
-};
+pub use rows::{ColumnKind, Format, ReadOptions, RowReader, RowWriter, open_table, table_of_bytes};
+pub use table::{DroppedRows, Missing, Selection, Table, read_table};

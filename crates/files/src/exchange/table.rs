@@ -70,38 +70,34 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     let (mut inputs, outputs) = places(&names, selection)?;
     let (mut skipped, remedy) = (Vec::new(), TextColumn::REMEDY);
     if selection.inputs.is_empty() {
-        let is_known = |place: &usize| selection.kinds.iter().any(|kind| kind.name == names[*place]);
-        let mut text = reader.text_columns()?;
-        text.retain(|(place, _)| inputs.contains(place) && !is_known(place));
-        inputs.retain(|place| text.iter().all(|(of_text, _)| of_text != place));
-        let column =
-            |(place, example): (usize, String)| TextColumn { name: names[place].clone(), example: Some(example) };
-        skipped = text.into_iter().map(column).collect();
+        for (place, example) in reader.text_columns()? {
+            let name = &names[place];
+            if inputs.contains(&place) && selection.kinds.iter().all(|kind| kind.name != *name) {
+                inputs.retain(|input| *input != place);
+                skipped.push(TextColumn { name: name.clone(), example: Some(example) });
+            }
+        }
     }
     if inputs.is_empty() {
         let why: String = skipped.iter().map(|column| format!("; {}", column.reason())).collect();
-        let known = names.join(", ");
-        return refused(format!("no column of numbers is left as an input{why}; the columns are {known}; {remedy}"));
+        let names = names.join(", ");
+        return refused(format!("no column of numbers is left as an input{why}; the columns are {names}; {remedy}"));
     }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
-    let kind = |name: &String| selection.kinds.iter().find(|kind| kind.name == *name).cloned();
-    let kind = |place: usize| kind(&names[place]).unwrap_or_else(|| ColumnKind::numbers(&names[place]));
-    let wanted: Vec<_> = chosen.iter().map(|&place| (place, kind(place))).collect();
-    let mut columns: Vec<Column> =
-        chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
-    let not_a_number = |place: String, at: usize, found: String| {
-        let is_chosen = !selection.inputs.is_empty() || outputs.contains(&at);
-        let advice = if is_chosen { "" } else { "; if the column is not an input, name the inputs (--inputs)" };
-        let (column, name) = (at + 1, &names[at]);
-        TableError::Refused(format!(
-            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {remedy}"
-        ))
-    };
+    let (mut wanted, mut columns) = (Vec::new(), Vec::new());
+    for &place in &chosen {
+        let kind = selection.kinds.iter().find(|kind| kind.name == names[place]).cloned();
+        wanted.push((place, kind.unwrap_or_else(|| ColumnKind::numbers(&names[place]))));
+        columns.push(Column { name: names[place].clone(), values: Vec::new() });
+    }
+    // Columns that are inputs because no inputs are named.
+    let defaults = if selection.inputs.is_empty() { &inputs[..] } else { &[] };
     let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);
     loop {
         let count = reader.read(&wanted, BLOCK, &mut cells).map_err(|error| match error {
             TableError::WrongCell { row, line, column, found, .. } => {
-                not_a_number(place_in_words(line, row), column - 1, found)
+                let place = place_in_words(line, row);
+                not_a_number(&place, column, &names[column - 1], &found, defaults.contains(&(column - 1)))
             }
             error => error,
         })?;
@@ -111,16 +107,19 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         for row in 0..count {
             let (line, number) = (reader.line(row), before + row as u64 + 1);
             let Some(first) = cells.iter().position(|column| !column[row].is_finite()) else {
-                columns.iter_mut().zip(&cells).for_each(|(column, cells)| column.values.push(cells[row]));
+                for (column, cells) in columns.iter_mut().zip(&cells) {
+                    column.values.push(cells[row]);
+                }
                 continue;
             };
+            let place = place_in_words(line, number);
             // An infinity anywhere in the row is not a missing value.
             if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
-                return Err(not_a_number(place_in_words(line, number), chosen[at], cells[at][row].to_string()));
+                let (column, value) = (chosen[at], cells[at][row].to_string());
+                return Err(not_a_number(&place, column + 1, &names[column], &value, defaults.contains(&column)));
             }
             if selection.missing == Missing::Refuse {
-                let (place, column) = (place_in_words(line, number), chosen[first] + 1);
-                let name = &names[chosen[first]];
+                let (column, name) = (chosen[first] + 1, &names[chosen[first]]);
                 return refused(format!(
                     "{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
                 ));
@@ -134,24 +133,32 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     Ok(Table { inputs: columns, outputs, dropped, skipped })
 }
 
+/// Returns the error of a cell; `is_default` says that its column is an input because no inputs are named.
+fn not_a_number(place: &str, column: usize, name: &str, found: &str, is_default: bool) -> TableError {
+    let (remedy, advice) = (TextColumn::REMEDY, "; if the column is not an input, name the inputs (--inputs)");
+    let advice = if is_default { advice } else { "" };
+    TableError::Refused(format!(
+        "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {remedy}"
+    ))
+}
+
 /// Returns the position of the column of that name.
 pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableError> {
     if let Some(place) = names.iter().position(|other| other == name) {
         return Ok(place);
     }
-    let (nearest, known) = (nearest(name, names.iter().map(String::as_str)), names.join(", "));
-    refused(format!("no column is called `{name}`{}; the columns are {known}", did_you_mean(&nearest)))
+    let hint = did_you_mean(&nearest(name, names.iter().map(String::as_str)));
+    refused(format!("no column is called `{name}`{hint}; the columns are {}", names.join(", ")))
 }
 
 /// Returns the positions of the inputs and of the outputs in the header.
 fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Vec<usize>), TableError> {
-    let place = |name: &String| column_of(names, name);
-    let asked: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();
-    if let Some(k) = (1..asked.len()).find(|&k| asked[..k].contains(&asked[k])) {
-        return refused(format!("`{}` is listed twice: each column can be one input or one output", asked[k]));
+    let chosen: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();
+    if let Some(k) = (1..chosen.len()).find(|&k| chosen[..k].contains(&chosen[k])) {
+        return refused(format!("`{}` is listed twice: each column can be one input or one output", chosen[k]));
     }
-    let outputs = selection.outputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    let mut inputs = selection.inputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let mut outputs = chosen.into_iter().map(|name| column_of(names, name)).collect::<Result<Vec<_>, _>>()?;
+    let mut inputs = outputs.split_off(selection.outputs.len());
     if inputs.is_empty() {
         inputs = (0..names.len()).filter(|place| !outputs.contains(place)).collect();
     }

@@ -2,13 +2,9 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
-use std::marker::PhantomData;
 use std::ops::Range;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
@@ -57,6 +53,11 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
+/// Returns the value of an optional key.
+pub(super) fn copied<T: Copy>(typed: &Option<At<T>>) -> Option<T> {
+    typed.as_ref().map(|typed| *typed.get_ref())
+}
+
 /// A value that is not in the file, without a position.
 impl<T: Default> Default for At<T> {
     fn default() -> Self {
@@ -72,51 +73,4 @@ pub(super) fn in_order(table: &Choices) -> Vec<(&At<String>, &At<toml::Value>)> 
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(name, _)| name.span().start);
     entries
-}
-
-/// A list of texts, or a table of type `T`.
-#[derive(Debug)]
-pub(super) enum ListOrTable<T> {
-    List(Vec<At<String>>),
-    Table(T),
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for ListOrTable<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ListOrTableVisitor(PhantomData))
-    }
-}
-
-/// A visitor, because an untagged enum would lose the positions of the values.
-struct ListOrTableVisitor<T>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>> Visitor<'de> for ListOrTableVisitor<T> {
-    type Value = ListOrTable<T>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a list in square brackets, or a table")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<ListOrTable<T>, A::Error> {
-        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(ListOrTable::List)
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<ListOrTable<T>, A::Error> {
-        Deserialize::deserialize(MapAccessDeserializer::new(table)).map(ListOrTable::Table)
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for ListOrTable<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        format!("ListOr{}", T::schema_name()).into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let table = generator.subschema_for::<T>();
-        schemars::json_schema!({ "anyOf": [{ "type": "array", "items": { "type": "string" }, "minItems": 1 }, table] })
-    }
 }

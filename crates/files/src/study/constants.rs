@@ -1,26 +1,23 @@
 //! The tables `[afm]`, with choices by name and constants of the scene with their units, and `[function]`.
 
-use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
-use apportion::model::{KnownAnswer, KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
+use apportion::model::{KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
+use apportion::space::Space;
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
 use apportion_base::names::Named;
 use apportion_base::quantity::{Dimension, Quantity, Unit};
-use toml::Value;
+use toml::{Table, Value};
 
-use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};
-use super::distribution::{in_words_of_units, with_unit, wrong_unit};
+use super::at::{At, Choices};
+use super::context::{Context, Fault, named, names_of, number, shown, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
-use super::sections::{At, Choices};
+use super::reading::Reading;
+use super::units::{in_words_of_units, with_unit, wrong_unit};
 
-/// Reads the table into a scene and options, starting from the defaults. `is_factor` says which names must not be
-/// fixed.
-pub(super) fn afm(
-    context: &Context<'_>,
-    table: &BTreeMap<At<String>, At<Value>>,
-    is_factor: &dyn Fn(&str) -> bool,
-) -> Result<(Scene, Options), Fault> {
+/// Reads the table into a scene and options, starting from the defaults. Factors of `space` must not be fixed.
+pub(super) fn afm(context: &Context, table: &Choices, space: &Space) -> Result<(Scene, Options), Fault> {
     let (mut scene, mut options) = (Scene::default(), Options::default());
     for (key, value) in table {
         let name = key.get_ref().as_str();
@@ -28,11 +25,11 @@ pub(super) fn afm(
             continue;
         }
         let Some(parameter) = Parameter::from_name(name) else {
-            let choices: Vec<&str> = afm_choices().map(|(key, _)| key).collect();
-            let known = choices.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
-            return Err(context.fault(key.span(), unknown_key(name, known)));
+            let parameters = Parameter::ALL.iter().map(|parameter| parameter.name);
+            let valid = afm_choices().map(|(key, _)| key).chain(parameters);
+            return Err(context.fault(key.span(), unknown_key(name, valid)));
         };
-        if is_factor(name) {
+        if space.factors().iter().any(|factor| factor.name == name) {
             let problem = format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]");
             let help = format!("remove `{name}` here, or from the factors");
             return Err(context.fault(key.span(), Problem::with_help(problem, help)));
@@ -44,7 +41,6 @@ pub(super) fn afm(
 
 /// Sets the option of that name, and returns whether it is one.
 fn set_option(options: &mut Options, name: &str, value: &At<Value>) -> Result<bool, Problem> {
-    let found = || shown(value.get_ref());
     match name {
         "friction" => options.friction = choice(value, name, "friction law")?,
         "contact" => options.contact = choice(value, name, "contact theory")?,
@@ -54,13 +50,11 @@ fn set_option(options: &mut Options, name: &str, value: &At<Value>) -> Result<bo
         "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref())?,
         "step" => options.step = positive(name, "\"10 ms\"", value.get_ref())?,
         "step_budget" => {
-            let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
-            let budget = budget.filter(|&steps| steps > 0);
-            options.step_budget = budget.ok_or_else(|| wrong(name, "a whole number from 1", found()))?;
+            options.step_budget = integer(name, "a whole number from 1", 1..=i64::MAX, value.get_ref())? as u64;
         }
         "adhesion_in_load" => {
             let typed = value.get_ref().as_bool();
-            options.adhesion_in_load = typed.ok_or_else(|| wrong(name, "true or false", found()))?;
+            options.adhesion_in_load = typed.ok_or_else(|| wrong(name, "true or false", shown(value.get_ref())))?;
         }
         // See `moments`.
         "history" => (),
@@ -74,55 +68,67 @@ const DURATION: f64 = 0.4;
 const POINTS: usize = 40;
 
 /// Returns the moments of the outputs that are histories, from the key `history`.
-pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Value>>) -> Result<AfmMoments, Fault> {
-    let entry = table.iter().find(|(key, _)| key.get_ref() == "history").map(|(_, value)| value);
-    let (mut duration, mut points) = (DURATION, POINTS);
-    let fault = |problem| context.fault(entry.map_or(0..0, At::span), problem);
-    if let Some(value) = entry {
-        let expected = "a table such as { duration = \"0.4 s\", points = 40 }";
-        let table = value.get_ref().as_table();
-        let table = table.ok_or_else(|| fault(wrong("history", expected, shown(value.get_ref()))))?;
-        for (key, typed) in table {
-            match key.as_str() {
-                "duration" => duration = positive("history.duration", "\"0.4 s\"", typed).map_err(fault)?,
-                "points" => {
-                    let number = typed.as_integer().and_then(|points| usize::try_from(points).ok());
-                    points = number.filter(|points| (2..=MAX_SERIES_VALUES).contains(points)).ok_or_else(|| {
-                        fault(wrong("history.points", "a whole number from 2 to 10000", typed.to_string()))
-                    })?;
-                }
-                other => return Err(fault(unknown_key(other, ["duration", "points"].into_iter()))),
-            }
+pub(super) fn moments(context: &Context, table: &Choices) -> Result<AfmMoments, Fault> {
+    let Some((_, typed)) = table.iter().find(|(key, _)| key.get_ref() == "history") else {
+        return history(&Table::new()).map_err(|problem| context.fault(0..0, problem));
+    };
+    match typed.get_ref().as_table() {
+        Some(table) => context.at(typed, history(table)),
+        None => {
+            let expected = "a table such as { duration = \"0.4 s\", points = 40 }";
+            context.refuse(typed, "history", expected, shown(typed.get_ref()))
         }
     }
-    AfmMoments::new(duration, points).map_err(|error| fault(Problem::new(format!("`history`: {error}"))))
+}
+
+fn history(table: &Table) -> Result<AfmMoments, Problem> {
+    let (mut duration, mut points) = (DURATION, POINTS);
+    for (key, typed) in table {
+        match key.as_str() {
+            "duration" => duration = positive("history.duration", "\"0.4 s\"", typed)?,
+            "points" => {
+                let range = 2..=MAX_SERIES_VALUES as i64;
+                points = integer("history.points", "a whole number from 2 to 10000", range, typed)? as usize;
+            }
+            other => return Err(unknown_key(other, ["duration", "points"])),
+        }
+    }
+    AfmMoments::new(duration, points).map_err(|error| Problem::new(format!("`history`: {error}")))
 }
 
 /// Returns notes on keys of the table that are valid but have no effect under `options`.
-pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, has_histories: bool) -> Vec<String> {
-    let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
-    let acts = |name: &str| match name {
-        "step" => options.fidelity == Fidelity::FixedStep,
-        "tolerance" => marched && options.fidelity != Fidelity::FixedStep,
-        "step_budget" => marched,
-        "lugre_parameters" => marched && options.friction == FrictionLaw::LuGre,
-        _ => true,
-    };
+pub(super) fn notes(table: &Choices, options: &Options, has_histories: bool) -> Vec<String> {
+    let is_marched = options.fidelity != Fidelity::ClosedForm;
     let (friction, fidelity) = (options.friction.name(), options.fidelity.name());
-    let idle = table.keys().map(|key| key.get_ref().as_str()).filter(|name| !acts(name));
-    let notes =
-        idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""));
-    let without = !has_histories && table.keys().any(|key| key.get_ref() == "history");
-    let of_history =
-        without.then(|| "`history` has no effect without an output that is one, such as force_history".to_owned());
-    notes.chain(of_history).collect()
+    let mut notes = Vec::new();
+    for name in table.keys().map(At::get_ref) {
+        let has_effect = match name.as_str() {
+            "step" => options.fidelity == Fidelity::FixedStep,
+            "tolerance" => is_marched && options.fidelity != Fidelity::FixedStep,
+            "step_budget" => is_marched,
+            "lugre_parameters" => is_marched && options.friction == FrictionLaw::LuGre,
+            _ => true,
+        };
+        if !has_effect {
+            notes.push(format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""));
+        }
+    }
+    if !has_histories && table.keys().any(|key| key.get_ref() == "history") {
+        notes.push("`history` has no effect without an output that is one, such as force_history".to_owned());
+    }
+    notes
+}
+
+fn integer(key: &str, expected: &str, range: RangeInclusive<i64>, value: &Value) -> Result<i64, Problem> {
+    let integer = value.as_integer().filter(|integer| range.contains(integer));
+    integer.ok_or_else(|| wrong(key, expected, shown(value)))
 }
 
 fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<T, Problem> {
     match value.get_ref() {
         Value::String(text) => named(text, what),
         other => {
-            let names: Vec<String> = T::CHOICES.iter().map(|(name, _)| format!("{name:?}")).collect();
+            let names: Vec<String> = names_of::<T>().iter().map(|name| format!("{name:?}")).collect();
             Err(wrong(key, &format!("one of {}", names.join(", ")), shown(other)))
         }
     }
@@ -131,28 +137,27 @@ fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<
 /// Parses the SI value of a constant given as `"0.7 deg"`, or as a bare number if the parameter has no dimension.
 fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     let unit = edge_unit(parameter);
-    let dimensionless = unit.compatible(&Unit::dimensionless());
-    let example = || match dimensionless {
-        true => format!("{} = {}", parameter.name, (parameter.get)(&Scene::default())),
-        false => format!("{} = \"{} {unit}\"", parameter.name, unit.from_si((parameter.get)(&Scene::default()))),
+    let (name, default) = (parameter.name, (parameter.get)(&Scene::default()));
+    let example = match unit.compatible(&Unit::dimensionless()) {
+        true => format!("{name} = {default}"),
+        false => format!("{name} = \"{} {unit}\"", unit.from_si(default)),
     };
     let quantity = match value.get_ref() {
         Value::String(text) => Quantity::parse(text)?,
-        other => {
-            let expected = format!("a quantity, as in {}", example());
-            let refusal = || wrong(parameter.name, &expected, shown(other));
-            Quantity { value: number(other).ok_or_else(refusal)?, unit: Unit::dimensionless() }
-        }
+        other => match number(other) {
+            Some(value) => Quantity { value, unit: Unit::dimensionless() },
+            None => return Err(wrong(name, &format!("a quantity, as in {example}"), shown(other))),
+        },
     };
     if !quantity.unit.compatible(&unit) {
         let stated = Some(&quantity.unit).filter(|unit| !unit.compatible(&Unit::dimensionless()));
-        return Err(wrong_unit(&format!("`{}`", parameter.name), &unit, stated, &example()));
+        return Err(wrong_unit(&format!("`{name}`"), &unit, stated, &example));
     }
     let si = quantity.unit.to_si(quantity.value);
     if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
-        let (name, domain) = (parameter.name, in_words_of_units(parameter.domain));
-        let found = with_unit(quantity.value, quantity.unit.symbol());
-        return Err(Problem::new(format!("`{name}` must be {domain}, but it is {found}")));
+        let domain = in_words_of_units(parameter.domain);
+        let value = with_unit(quantity.value, quantity.unit.symbol());
+        return Err(Problem::new(format!("`{name}` must be {domain}, but it is {value}")));
     }
     Ok(si)
 }
@@ -161,46 +166,43 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
 fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
     let kind = if is_time { "time" } else { "number" };
-    let found = match value {
+    let number = match value {
         Value::String(text) if is_time => {
             let quantity = Quantity::parse(text)?;
             (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
         }
         other => number(other).filter(|_| !is_time),
     };
-    found
+    number
         .filter(|number| *number > 0.0 && number.is_finite())
-        .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value.to_string()))
+        .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value))
 }
 
-/// Returns the function with the parameters of the table.
-pub(super) fn known(
-    context: &Context<'_>,
-    answer: &'static KnownAnswer,
-    table: Option<&At<Choices>>,
-) -> Result<KnownFunction, Fault> {
-    let Some(table) = table else { return Ok(answer.default_function()) };
+/// Returns the function with the parameters of its table; `None` for models that are none.
+pub(super) fn known_function(reading: &Reading) -> Result<Option<KnownFunction>, Fault> {
+    let Reading { context, file, kind } = reading;
+    let Some(answer) = kind.known else { return Ok(None) };
+    let Some(table) = &file.function else { return Ok(Some(answer.default_function())) };
     let mut parameters = Vec::new();
     for (key, value) in table.get_ref() {
         let name = key.get_ref();
-        if answer.parameters.iter().all(|parameter| parameter.name != name) {
-            return Err(context.fault(key.span(), unknown_parameter(answer, name)));
+        if answer.parameters.is_empty() {
+            return Err(context.fault(key.span(), Problem::new(ParameterError::unknown(name).to_string())));
         }
-        let found = || wrong(name, "a number or a list of numbers", shown(value.get_ref()));
-        parameters.push((name.clone(), context.at(value, number_or_list(value.get_ref()).ok_or_else(found))?));
+        if answer.parameters.iter().all(|parameter| parameter.name != name) {
+            let valid = answer.parameters.iter().map(|parameter| parameter.name);
+            return Err(context.fault(key.span(), unknown_key(name, valid)));
+        }
+        let Some(parameter) = number_or_list(value.get_ref()) else {
+            return context.refuse(value, name, "a number or a list of numbers", shown(value.get_ref()));
+        };
+        parameters.push((name.clone(), parameter));
     }
-    answer.with(&parameters).map_err(|error| {
-        let about = |key: &At<String>| *key.get_ref() == error.parameter;
-        let span = table.get_ref().iter().find(|(key, _)| about(key)).map_or(table.span(), |(_, value)| value.span());
+    answer.with(&parameters).map(Some).map_err(|error| {
+        let typed = table.get_ref().iter().find(|(key, _)| *key.get_ref() == error.parameter);
+        let span = typed.map_or(table.span(), |(_, value)| value.span());
         context.fault(span, Problem::new(error.to_string()))
     })
-}
-
-fn unknown_parameter(answer: &KnownAnswer, name: &str) -> Problem {
-    if answer.parameters.is_empty() {
-        return Problem::new(ParameterError::unknown(name).to_string());
-    }
-    unknown_key(name, answer.parameters.iter().map(|parameter| parameter.name))
 }
 
 fn number_or_list(value: &Value) -> Option<ParameterValue> {

@@ -137,9 +137,9 @@ impl Diagnostic {
         let end = text.floor_char_boundary(span.end).clamp(start, line_end);
         let before = text[line_start..start].chars().count();
         let width = text[start..end].trim_end().chars().count().max(1);
-        let whole = printable(text[line_start..line_end].trim_end_matches('\r'));
-        let from = if whole.chars().count() > MAX_LINE { before.saturating_sub(LEAD) } else { 0 };
-        let source_line: String = whole.chars().skip(from).take(MAX_LINE).collect();
+        let line = printable(text[line_start..line_end].trim_end_matches('\r'));
+        let from = if line.chars().count() > MAX_LINE { before.saturating_sub(LEAD) } else { 0 };
+        let source_line: String = line.chars().skip(from).take(MAX_LINE).collect();
         let place = before - from;
         let mark = (place, width.min(MAX_LINE.saturating_sub(place)).max(1));
         Self {

@@ -1,12 +1,12 @@
 //! The schemas of single keys of study files, which do not follow from their types.
 
 use apportion::model::KnownAnswer;
-use apportion::space::distribution::{Key, KeyKind, Kind};
+use apportion::space::distribution::{Key, KeyKind};
 use apportion_afm::{Parameter, edge_unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::outputs::OutputTable;
+use super::output_table::OutputTable;
 use crate::ModelKind;
 
 /// Returns the choices of `[afm]`, each with its possible names.
@@ -15,42 +15,31 @@ pub(super) fn afm_choices() -> impl Iterator<Item = (&'static str, Vec<&'static 
     ModelKind::AFM.choices().into_iter().map(|(key, names)| (key.split(' ').next().unwrap_or(key), names))
 }
 
-pub(super) fn models() -> Vec<&'static str> {
-    ModelKind::all().into_iter().map(|kind| kind.name).collect()
-}
-
 /// Returns the schema of the low-fidelity models.
 pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
     let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
 }
 
-pub(super) fn distributions() -> Vec<&'static str> {
-    Kind::all().map(Kind::name).collect()
-}
-
-/// Returns the names of all values of a kind.
-pub(super) fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
-    all.iter().map(|&choice| name(choice)).collect()
-}
-
 /// Returns the schema of `[afm]`: the choices, and every parameter as a quantity.
 pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
-    let choice = |(key, names): (&'static str, Vec<&'static str>)| match key {
-        "tolerance" => json!({ "type": "number", "exclusiveMinimum": 0 }),
-        "adhesion_in_load" => json!({ "type": "boolean" }),
-        "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
-        "step_budget" => json!({ "type": "integer", "minimum": 1 }),
-        "history" => json!({
-            "type": "object",
-            "description": "Duration of the outputs that are histories, and their number of points in time.",
-            "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
-            "additionalProperties": false,
-        }),
-        _ => json!({ "enum": names }),
-    };
-    let schema = |(key, names)| (str::to_owned(key), choice((key, names)));
-    let mut properties: Map<String, Value> = afm_choices().map(schema).collect();
+    let mut properties = Map::new();
+    for (key, names) in afm_choices() {
+        let schema = match key {
+            "tolerance" => json!({ "type": "number", "exclusiveMinimum": 0 }),
+            "adhesion_in_load" => json!({ "type": "boolean" }),
+            "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
+            "step_budget" => json!({ "type": "integer", "minimum": 1 }),
+            "history" => json!({
+                "type": "object",
+                "description": "Duration of the outputs that are histories, and their number of points in time.",
+                "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
+                "additionalProperties": false,
+            }),
+            _ => json!({ "enum": names }),
+        };
+        properties.insert(key.to_owned(), schema);
+    }
     for parameter in Parameter::ALL {
         let unit = edge_unit(parameter);
         let (kinds, example) = match unit.symbol() {
@@ -69,14 +58,19 @@ pub(super) fn name_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> S
     schemars::json_schema!({ "anyOf": [{ "type": "string" }, table] })
 }
 
+/// Returns the schema of a list of texts, or a table of that type.
+pub(super) fn list_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    let table = generator.subschema_for::<T>();
+    schemars::json_schema!({ "anyOf": [{ "type": "array", "items": { "type": "string" }, "minItems": 1 }, table] })
+}
+
 /// Returns the schema of `[function]`: the parameters of all functions.
 pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
-    let number_or_list = || json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
+    let number_or_list = json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
     let mut properties = Map::new();
     for parameter in KnownAnswer::all().flat_map(|answer| answer.parameters) {
-        properties
-            .entry(parameter.name)
-            .or_insert_with(|| json!({ "anyOf": number_or_list(), "description": parameter.description }));
+        let entry = properties.entry(parameter.name);
+        entry.or_insert(json!({ "anyOf": number_or_list, "description": parameter.description }));
     }
     object(properties)
 }

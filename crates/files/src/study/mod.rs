@@ -11,27 +11,34 @@ mod dependence;
 mod distribution;
 mod error;
 mod expression;
+mod factors;
 mod fidelity;
 mod key_schemas;
+mod measured;
 mod models;
+mod output_table;
 mod outputs;
 mod overrides;
+mod parse;
+mod reading;
 mod resolve;
 mod schema;
 mod sections;
 mod subjects;
 mod synonyms;
 mod template;
+mod units;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use apportion::study::{Study, StudySource};
 use apportion_base::digest::sha256;
 use apportion_base::files::read_text;
+use context::Context;
 pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;
-pub use subjects::{CommandSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject};
+pub use subjects::{ExpressionSubject, Formula};
 pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
@@ -39,8 +46,7 @@ pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 /// # Errors
 /// [`StudyError`] with the place in the file and what is expected.
 pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
-    let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
-    let text = read_text(path).map_err(unreadable)?;
+    let text = read_text(path).map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
     parse_study(&text, path, overrides)
 }
 
@@ -67,13 +73,14 @@ pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError
 /// # Errors
 /// [`StudyError`] with the place in the text and what is expected.
 pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
-    let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
-    let context = context::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
-    let (study, notes) = resolve::study(&context).map_err(|mut diagnostic| {
+    let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overrides::apply(text, overrides)? };
+    let is_editable = effective.is_some();
+    let context = Context { path: path.to_owned(), text: effective.unwrap_or_else(|| text.to_owned()) };
+    let (study, notes) = resolve::study(context).map_err(|mut diagnostic| {
         diagnostic.overrides = overrides.to_vec();
         diagnostic
     })?;
-    if effective.is_none() {
+    if !is_editable {
         // The reader accepts whole numbers up to 2^64, the editor up to 2^63, as TOML requires.
         return Err(not_editable(overrides));
     }
@@ -84,19 +91,16 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
         notes,
     }))
 }
+
 /// Returns the text of a study after `overrides`, which [`parse_study`] reads like the original text with them.
 ///
 /// # Errors
 /// [`StudyError`] if an override cannot be applied, or the text is not TOML.
 pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
-    overridden(text, overrides)?.ok_or_else(|| not_editable(overrides))
+    overrides::apply(text, overrides)?.ok_or_else(|| not_editable(overrides))
 }
 
 fn not_editable(overrides: &[String]) -> StudyError {
     let problem = "the study cannot be changed, because it has an integer above 2^63 - 1, which TOML does not allow";
     StudyError::Override { text: overrides.join(" "), problem: problem.to_owned() }
-}
-
-fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
-    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
 }

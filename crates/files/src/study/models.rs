@@ -4,29 +4,21 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use apportion::model::{Expression, Input, KnownFunction, known_inputs};
+use apportion::model::{Expression, Input, known_inputs};
 use apportion::space::Space;
-use apportion::study::Subject;
 use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
-use super::at::ListOrTable;
-use super::context::{Context, Fault, unknown_name};
-use super::distribution::own_inputs;
+use super::at::At;
+use super::constants::known_function;
+use super::context::{Fault, unknown_name};
 use super::error::Problem;
-use super::sections::{At, StudyFile};
+use super::output_table::Outputs;
+use super::reading::{Configured, Reading};
+use super::sections::StudyFile;
 use super::subjects::KnownSubject;
-use super::{command, constants, expression, outputs as own};
+use super::units::factor_inputs;
+use super::{command, constants, expression, outputs as external};
 use crate::ModelKind;
-
-/// A study file with a known model.
-pub(super) struct Reading<'a> {
-    pub context: &'a Context<'a>,
-    pub file: &'a StudyFile,
-    pub kind: ModelKind,
-}
-
-/// A subject, and notes on what has no effect.
-type Subjects = Result<(Arc<dyn Subject>, Vec<String>), Fault>;
 
 /// A table of study files for a kind of model.
 pub(super) struct ModelTable {
@@ -35,9 +27,9 @@ pub(super) struct ModelTable {
     /// Its position, if it is present.
     pub span: fn(&StudyFile) -> Option<Range<usize>>,
     /// The possible factors.
-    pub inputs: fn(&Reading<'_>) -> Result<Vec<Input>, Fault>,
+    pub inputs: fn(&Reading) -> Result<Vec<Input>, Fault>,
     /// The configured model.
-    pub subject: fn(&Reading<'_>, &Space) -> Subjects,
+    pub subject: fn(&Reading, &Space) -> Configured,
     guide: Option<&'static str>,
 }
 
@@ -53,60 +45,43 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "function",
         span: |file| file.function.as_ref().map(At::span),
-        inputs: |reading| Ok(known(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
-        subject: |reading, _| {
-            outputs(reading)?;
-            // A test covers all kinds of this table.
-            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
-            Ok((Arc::new(KnownSubject { function }), Vec::new()))
-        },
+        inputs: |reading| Ok(known_function(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
+        subject: function,
         guide: None,
     },
     ModelTable {
         name: "expression",
         span: |file| file.expression.as_ref().map(At::span),
-        inputs: |reading| expression::inputs(reading.context, &reading.file.factor),
-        subject: |Reading { context, file, .. }, space| {
-            let (subject, notes) =
-                expression::subject(context, file.outputs.as_ref(), file.expression.as_ref(), space)?;
-            Ok((Arc::new(subject), notes))
-        },
+        inputs: expression::inputs,
+        subject: expression::subject,
         guide: Some(include_str!("../../templates/guides/expression.txt")),
     },
     ModelTable {
         name: "external",
         span: |_| None,
-        inputs: |reading| own::inputs(reading.context, &reading.file.factor),
+        inputs: external::inputs,
         subject: outside,
         guide: Some(include_str!("../../templates/guides/external.txt")),
     },
     ModelTable {
         name: "command",
         span: |file| file.command.as_ref().map(At::span),
-        inputs: |reading| own_inputs(reading.context, &reading.file.factor),
+        inputs: factor_inputs,
         subject: program,
         guide: Some(include_str!("../../templates/guides/command.txt")),
     },
 ];
 
 #[cfg(not(target_family = "wasm"))]
-fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjects {
-    let (subject, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), space)?;
-    Ok((Arc::new(subject), notes))
-}
-
-#[cfg(not(target_family = "wasm"))]
-fn outside(Reading { context, file, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Ok((Arc::new(own::subject(context, file.outputs.as_ref())?), Vec::new()))
-}
+use {command::subject as program, external::subject as outside};
 
 /// A page starts no programs, and does not contain the code for them.
 #[cfg(target_family = "wasm")]
 use program as outside;
 
 #[cfg(target_family = "wasm")]
-fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Err(context.fault(0..0, command::no_program()))
+fn program(reading: &Reading, _: &Space) -> Configured {
+    Err(reading.context.fault(0..0, command::no_program()))
 }
 
 /// Returns the table of a kind of model.
@@ -121,43 +96,45 @@ pub fn model_guide(kind: ModelKind) -> Option<String> {
     Some(format!("{}: {}\n\n{text}", kind.name, kind.description))
 }
 
-/// Returns the function with the parameters of its table.
-fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
-    let with_table = |answer| constants::known(reading.context, answer, reading.file.function.as_ref());
-    reading.kind.known.map(with_table).transpose()
+fn function(reading: &Reading, _: &Space) -> Configured {
+    outputs(reading)?;
+    // A test covers all kinds of this table.
+    let function = known_function(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
+    Ok((Arc::new(KnownSubject { function }), Vec::new()))
 }
 
-fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
-    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    // Histories come after the others in the catalogue.
-    let (places, histories): (Vec<usize>, Vec<usize>) =
-        outputs(reading)?.into_iter().partition(|place| *place < AfmOutput::ALL.len());
-    let outputs = places.into_iter().map(|place| AfmOutput::ALL[place]).collect();
-    let histories: Vec<AfmHistory> =
-        histories.into_iter().map(|place| AfmHistory::ALL[place - AfmOutput::ALL.len()]).collect();
+fn afm(reading: &Reading, space: &Space) -> Configured {
+    let (mut values, mut histories) = (Vec::new(), Vec::new());
+    for place in outputs(reading)? {
+        // Histories come after the others in the catalogue.
+        match AfmOutput::ALL.get(place) {
+            Some(output) => values.push(*output),
+            None => histories.push(AfmHistory::ALL[place - AfmOutput::ALL.len()]),
+        }
+    }
     let none = Default::default();
     let table = reading.file.afm.as_ref().map_or(&none, At::get_ref);
-    let (scene, options) = constants::afm(reading.context, table, &is_factor)?;
-    let moments = constants::moments(reading.context, table)?;
-    let notes = constants::idle(table, &options, !histories.is_empty());
-    Ok((Arc::new(AfmSubject { scene, options, outputs, histories, moments }), notes))
+    let (scene, options) = constants::afm(&reading.context, table, space)?;
+    let moments = constants::moments(&reading.context, table)?;
+    let notes = constants::notes(table, &options, !histories.is_empty());
+    Ok((Arc::new(AfmSubject { scene, options, outputs: values, histories, moments }), notes))
 }
 
 /// Returns the numbers of the outputs in the catalogue, in the requested order; by default the first one.
-fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
+fn outputs(reading: &Reading) -> Result<Vec<usize>, Fault> {
     let Some(key) = &reading.file.outputs else { return Ok(vec![0]) };
     let Reading { context, kind, .. } = reading;
     let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
-    let asked = match key.get_ref() {
-        ListOrTable::List(names) if !names.is_empty() => names,
+    let names = match key.get_ref() {
+        Outputs::Names(names) if !names.is_empty() => names,
         _ => return Err(context.fault(key.span(), Problem::missing("names of outputs", example))),
     };
-    let known = kind.outputs();
+    let outputs = kind.outputs();
     let mut places = Vec::new();
-    for name in asked {
-        let unknown = || unknown_name("output", name.get_ref(), known.iter().map(|output| &*output.name));
-        let place = known.iter().position(|output| *output.name == **name.get_ref());
-        let place = context.at(name, place.ok_or_else(unknown))?;
+    for name in names {
+        let valid = outputs.iter().map(|output| &*output.name);
+        let place = valid.clone().position(|output| output == name.get_ref());
+        let place = context.at(name, place.ok_or_else(|| unknown_name("output", name.get_ref(), valid)))?;
         if places.contains(&place) {
             let problem = Problem::Repeated { what: "output", name: name.get_ref().clone() };
             return Err(context.fault(name.span(), problem));

@@ -2,68 +2,29 @@
 //! a program's numbers after a run.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use apportion::model::{Input, Output, OutputSeries, SeriesAxis, SeriesError};
+use apportion::space::Space;
 use apportion::study::ExternalSubject;
 use apportion_base::names::{SHORT_TEXT, is_short_text};
 use apportion_base::quantity::Unit;
 use regex_lite::Regex;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::{Map, Value as Json, json};
 use toml::Value;
 
-use super::at::{At, ListOrTable, in_order};
+use super::at::{At, in_order};
 use super::context::{Context, Fault, shown, wrong};
-use super::distribution::{output_unit, own_inputs};
 use super::error::Problem;
-use super::key_schemas::names;
-use super::resolve;
-use super::sections::{FactorSection, Outputs};
-use crate::{CommandOutput, Match, Pick, Source, Way};
+use super::output_table::{OutputTable, Outputs};
+use super::parse;
+use super::reading::{Configured, Reading};
+use super::units::factor_inputs;
+use crate::{CommandOutput, Match, Pick, PickMethod, Source};
 
-/// The table of an output: its formula, the place of its number after a run, the axis of a series.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct OutputTable {
-    /// Formula of the factors.
-    pub formula: Option<String>,
-    /// Unit of the output's numbers.
-    pub unit: Option<String>,
-    /// File that a run writes in its directory; standard output by default.
-    pub file: Option<String>,
-    /// Regular expression, whose first group is the number.
-    pub regex: Option<String>,
-    /// Column of a CSV table with a header.
-    pub column: Option<String>,
-    /// JSON pointer (RFC 6901), as in "/result/force".
-    pub pointer: Option<String>,
-    /// Which match of the regex, or row of the table, to use; a series uses all.
-    #[serde(rename = "match")]
-    #[schemars(extend("enum" = names(&Match::ALL, Match::name), "default" = "last"))]
-    pub which: Option<String>,
-    /// The number of values, if the output is a series along an axis.
-    #[schemars(range(min = 2, max = 10000))]
-    pub length: Option<u64>,
-    /// Name of the axis.
-    #[schemars(extend("default" = "index"))]
-    pub axis: Option<String>,
-    /// Unit of the positions.
-    pub axis_unit: Option<String>,
-    /// The first position and the step, or the position of every value; 0, 1, 2, ... by default.
-    pub positions: Option<Vec<f64>>,
-}
-
-impl OutputTable {
-    /// Reads the table `typed`, which is the value of an output.
-    pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
-        context.at(value, typed.clone().try_into().map_err(|error| resolve::problem(&error)))
-    }
-}
-
-/// The outputs of the user's own model.
+/// The outputs that a study states for a program or an external model.
 #[derive(Default)]
-pub(super) struct OwnOutputs {
+pub(super) struct StatedOutputs {
     /// In the order of the file.
     pub outputs: Vec<CommandOutput>,
     /// The outputs that are series.
@@ -74,7 +35,7 @@ pub(super) struct OwnOutputs {
     pub stated: Map<String, Json>,
 }
 
-impl OwnOutputs {
+impl StatedOutputs {
     /// Adds the values of `output` along `axis`.
     fn add_series(&mut self, output: CommandOutput, axis: SeriesAxis) {
         let names = OutputSeries::value_names(&output.name, axis.positions().len()).enumerate();
@@ -96,20 +57,25 @@ impl OwnOutputs {
     }
 }
 
+/// Reads the table `typed`, which is the value of an output.
+pub(super) fn output_table(context: &Context, value: &At<Value>, typed: &toml::Table) -> Result<OutputTable, Fault> {
+    context.at(value, typed.clone().try_into().map_err(|error| parse::problem(&error)))
+}
+
 /// Returns the outputs that the study states.
-pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<OwnOutputs, Fault> {
+pub(super) fn stated_outputs(Reading { context, file, .. }: &Reading) -> Result<StatedOutputs, Fault> {
     let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
-    let Some(key) = key else { return Err(context.fault(0..0, missing)) };
-    let mut all = OwnOutputs::default();
+    let Some(key) = &file.outputs else { return Err(context.fault(0..0, missing)) };
+    let mut all = StatedOutputs::default();
     match key.get_ref() {
-        ListOrTable::List(names) => {
+        Outputs::Names(names) => {
             for name in names {
                 let (name, unit) = (name.get_ref().clone(), Unit::dimensionless());
                 all.stated.insert(name.clone(), json!({ "unit": unit.symbol() }));
                 all.outputs.push(CommandOutput { name, unit, pick: None });
             }
         }
-        ListOrTable::Table(table) => {
+        Outputs::Table(table) => {
             for (name, value) in in_order(table) {
                 let (output, axis, stated) = output(context, name, value)?;
                 if output.pick.is_some() && all.first_pick.is_none() {
@@ -132,30 +98,33 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
 
 /// Reads an output, its axis if it is a series, and its settings for results.
 fn output(
-    context: &Context<'_>,
+    context: &Context,
     name: &At<String>,
     value: &At<Value>,
 ) -> Result<(CommandOutput, Option<SeriesAxis>, Json), Fault> {
     let key = format!("outputs.{}", name.get_ref());
     let table = match value.get_ref() {
         Value::String(unit) => OutputTable { unit: Some(unit.clone()), ..OutputTable::default() },
-        Value::Table(typed) => OutputTable::read(context, value, typed)?,
+        Value::Table(typed) => output_table(context, value, typed)?,
         other => {
             let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
             return context.refuse(value, &key, expected, shown(other));
         }
     };
     if table.formula.is_some() {
-        let expected = "only of model = \"expression\"";
-        return context.refuse(value, &format!("{key}.formula"), expected, "of another model".to_owned());
+        return context.refuse(value, &format!("{key}.formula"), "only of model = \"expression\"", "of another model");
     }
     let axis = context.at(value, axis(&key, &table))?;
     let pick = context.at(value, pick(&key, &table))?;
     if axis.is_some() && table.which.is_some() {
         let expected = "used only for a single number: a series takes every match or row, from the first on";
-        return context.refuse(value, &format!("{key}.match"), expected, "with `length`".to_owned());
+        return context.refuse(value, &format!("{key}.match"), expected, "with `length`");
     }
-    let unit = output_unit(context, value, table.unit.as_deref().unwrap_or_default())?;
+    let unit = table.unit.as_deref().unwrap_or_default();
+    if !is_short_text(unit) {
+        return context.refuse(value, "unit", SHORT_TEXT, format!("{unit:?}"));
+    }
+    let unit = Unit::label(unit);
     let stated = stated(&table, &unit, axis.as_ref());
     Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis, stated))
 }
@@ -175,91 +144,84 @@ fn stated(table: &OutputTable, unit: &Unit, axis: Option<&SeriesAxis>) -> Json {
 
 fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
     let OutputTable { file, regex, column, pointer, which, .. } = table;
-    let refused = |name: &str, expected: &str, found: String| Err(wrong(&format!("{key}{name}"), expected, found));
-    let taken = match which.as_deref() {
-        None => Match::Last,
-        Some(name) => match Match::ALL.into_iter().find(|taken| taken.name() == name) {
-            Some(taken) => taken,
-            None => return refused(".match", "\"first\" or \"last\"", format!("{name:?}")),
-        },
+    let name = which.as_deref().unwrap_or(Match::Last.name());
+    let Some(taken) = Match::ALL.into_iter().find(|taken| taken.name() == name) else {
+        return Err(wrong(&format!("{key}.match"), "\"first\" or \"last\"", format!("{name:?}")));
     };
-    let way = match (regex, column, pointer) {
+    let method = match (regex, column, pointer) {
         (Some(regex), None, None) => match Regex::new(regex) {
-            Ok(regex) => Way::Regex(regex, taken),
+            Ok(regex) => PickMethod::Regex(regex, taken),
             Err(error) => {
                 let reason = error.to_string();
                 let reason = reason.lines().last().unwrap_or_default().trim_start_matches("error: ");
-                return refused(".regex", "a regular expression", format!("{regex:?}: {reason}"));
+                return Err(wrong(&format!("{key}.regex"), "a regular expression", format!("{regex:?}: {reason}")));
             }
         },
-        (None, Some(column), None) => Way::Column(column.clone(), taken),
+        (None, Some(column), None) => PickMethod::Column(column.clone(), taken),
         (None, None, Some(_)) if which.is_some() => {
-            return refused(".match", "only with `regex` or `column`", "with `pointer`".to_owned());
+            return Err(wrong(&format!("{key}.match"), "only with `regex` or `column`", "with `pointer`"));
         }
-        (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => Way::Pointer(pointer.clone()),
+        (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => {
+            PickMethod::Pointer(pointer.clone())
+        }
         (None, None, Some(pointer)) => {
             let expected = "a JSON pointer, which begins with a slash, as in \"/result/force\"";
-            return refused(".pointer", expected, format!("{pointer:?}"));
+            return Err(wrong(&format!("{key}.pointer"), expected, format!("{pointer:?}")));
         }
+        (None, None, None) if file.is_none() && which.is_none() => return Ok(None),
         (None, None, None) => {
-            let alone = [(".file", file), (".match", which)].into_iter().find(|(_, text)| text.is_some());
+            let alone = if file.is_some() { "file" } else { "match" };
             let expected = "only with `regex`, `column` or `pointer`";
-            return alone.map_or(Ok(None), |(left, _)| refused(left, expected, "without one of them".to_owned()));
+            return Err(wrong(&format!("{key}.{alone}"), expected, "without one of them"));
         }
-        _ => return refused("", "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()),
+        _ => return Err(wrong(key, "a table with one of `regex`, `column`, `pointer`", "one with several")),
     };
-    Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), way }))
+    Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), method }))
 }
 
 /// Returns the inputs of the model: the factors of the study, each in its own unit.
-pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    for section in factors {
+pub(super) fn inputs(reading: &Reading) -> Result<Vec<Input>, Fault> {
+    for section in &reading.file.factor {
         let name = &section.get_ref().name;
         if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
             let expected = "a text without spaces around it (it is the header of a column)";
-            return context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
+            return reading.context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
         }
     }
-    own_inputs(context, factors)
+    factor_inputs(reading)
 }
 
 /// Returns the outputs that the study states.
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
-pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
-    let own = own_outputs(context, outputs)?;
-    if let Some(place) = own.first_pick {
-        let expected = "used only with a program that this program starts";
-        return Err(context.fault(
-            place,
-            wrong("regex, column, pointer, file, match", expected, "with an external model".to_owned()),
-        ));
+pub(super) fn subject(reading: &Reading, _: &Space) -> Configured {
+    let StatedOutputs { outputs, series, first_pick, .. } = stated_outputs(reading)?;
+    if let Some(place) = first_pick {
+        let (key, expected) =
+            ("regex, column, pointer, file, match", "used only with a program that this program starts");
+        return Err(reading.context.fault(place, wrong(key, expected, "with an external model")));
     }
-    let output = |output: crate::CommandOutput| Output::new(output.name, output.unit, "computed outside this program");
-    Ok(ExternalSubject { outputs: own.outputs.into_iter().map(output).collect(), series: own.series })
+    let outputs =
+        outputs.into_iter().map(|output| Output::new(output.name, output.unit, "computed outside this program"));
+    Ok((Arc::new(ExternalSubject { outputs: outputs.collect(), series }), Vec::new()))
 }
 
 /// Returns the axis of the output `key` from its `table`; `None` if it is not a series.
 pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>, Problem> {
     let OutputTable { length, axis, axis_unit, positions, .. } = table;
-    let texts = [("axis", axis), ("axis_unit", axis_unit)];
-    let said = texts.map(|(name, text)| (name, text.is_some()));
-    let said = [("length", length.is_some()), ("positions", positions.is_some())].into_iter().chain(said);
-    let Some((first, _)) = said.into_iter().find(|(_, said)| *said) else { return Ok(None) };
-    let is_wrong = |(_, text): &(&str, &Option<String>)| text.as_ref().is_some_and(|text| !is_short_text(text));
-    if let Some((name, Some(text))) = texts.into_iter().find(is_wrong) {
-        return Err(wrong(&format!("{key}.{name}"), SHORT_TEXT, format!("{text:?}")));
+    let first = match (length, positions, axis, axis_unit) {
+        (Some(_), ..) => "length",
+        (_, Some(_), ..) => "positions",
+        (.., Some(_), _) => "axis",
+        (.., Some(_)) => "axis_unit",
+        _ => return Ok(None),
+    };
+    for (name, text) in [("axis", axis), ("axis_unit", axis_unit)] {
+        if let Some(text) = text.as_ref().filter(|text| !is_short_text(text)) {
+            return Err(wrong(&format!("{key}.{name}"), SHORT_TEXT, format!("{text:?}")));
+        }
     }
     let (label, unit) = (axis.as_deref().unwrap_or("index"), axis_unit.as_deref().unwrap_or_default());
     let length = length.map(|length| usize::try_from(length).unwrap_or(usize::MAX));
-    let refused = |error: SeriesError| {
-        let (name, expected, found) = match error {
-            SeriesError::Length { found } => ("length", "2 to 10000 values", found.to_string()),
-            SeriesError::Position { place, found } => {
-                ("positions", "finite numbers in rising order", format!("{found} at place {place}"))
-            }
-        };
-        wrong(&format!("{key}.{name}"), expected, found)
-    };
     let axis = match (positions.clone(), length) {
         (None, Some(length)) => SeriesAxis::even(label, unit, length, 0.0, 1.0),
         (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, pair[0], pair[1]),
@@ -271,9 +233,15 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
             return Err(wrong(&format!("{key}.positions"), &expected, format!("a list of {}", list.len())));
         }
         (_, None) => {
-            let found = format!("`{first}` without one");
-            return Err(wrong(&format!("{key}.length"), "the number of values, as in length = 365", found));
+            let expected = "the number of values, as in length = 365";
+            return Err(wrong(&format!("{key}.length"), expected, format!("`{first}` without one")));
         }
     };
-    axis.map(Some).map_err(refused)
+    axis.map(Some).map_err(|error| match error {
+        SeriesError::Length { found } => wrong(&format!("{key}.length"), "2 to 10000 values", found),
+        SeriesError::Position { place, found } => {
+            let position = format!("{found} at place {place}");
+            wrong(&format!("{key}.positions"), "finite numbers in rising order", position)
+        }
+    })
 }

@@ -4,6 +4,7 @@ use apportion::study::did_you_mean;
 use apportion_base::names::nearest;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
+use super::error::StudyError;
 use crate::ModelKind;
 
 /// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` is a key of the factor of
@@ -11,10 +12,10 @@ use crate::ModelKind;
 /// parsed as TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
 /// `None` if the text is not TOML: the reader then reports it, with the position.
-pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, String)> {
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
     for text in overrides {
-        set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
+        set(document.as_table_mut(), text).map_err(|problem| StudyError::Override { text: text.clone(), problem })?;
     }
     Ok(Some(document.to_string()))
 }
@@ -71,7 +72,7 @@ const INSTEAD: [(&str, &[&str]); 5] = [
 
 /// Removes the keys that `key` replaces.
 fn remove_others(root: &mut Table, key: &str) {
-    for other in INSTEAD.iter().filter(|(own, _)| key == *own).flat_map(|(_, others)| *others) {
+    for other in INSTEAD.iter().filter(|(chosen, _)| key == *chosen).flat_map(|(_, others)| *others) {
         match other.split_once('.') {
             Some((table, key)) => {
                 root.get_mut(table).and_then(Item::as_table_like_mut).and_then(|table| table.remove(key));
@@ -86,26 +87,28 @@ fn name_of(table: &dyn TableLike) -> Option<&str> {
 }
 
 fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, String> {
-    let mut factors: Vec<(String, &mut dyn TableLike)> = Vec::new();
+    let mut names = Vec::new();
     for (key, item) in root.iter_mut() {
-        match (key.get(), item) {
-            ("factor", Item::ArrayOfTables(tables)) => factors.extend(
-                tables.iter_mut().filter_map(|table| Some((name_of(table)?.to_owned(), table as &mut dyn TableLike))),
-            ),
-            ("factors", item) => {
-                let entries = item.as_table_like_mut().map(TableLike::iter_mut).into_iter().flatten();
-                factors.extend(
-                    entries.filter_map(|(name, item)| Some((name.get().to_owned(), item.as_table_like_mut()?))),
-                );
+        let tables: Vec<(String, &mut dyn TableLike)> = match (key.get(), item) {
+            ("factor", Item::ArrayOfTables(tables)) => {
+                let tables = tables.iter_mut();
+                tables.filter_map(|table| Some((name_of(table)?.to_owned(), table as &mut dyn TableLike))).collect()
             }
-            _ => (),
+            ("factors", item) => {
+                let lines = item.as_table_like_mut().map(TableLike::iter_mut).into_iter().flatten();
+                lines.filter_map(|(name, item)| Some((name.get().to_owned(), item.as_table_like_mut()?))).collect()
+            }
+            _ => continue,
+        };
+        for (factor, table) in tables {
+            if factor == name {
+                return Ok(table);
+            }
+            names.push(factor);
         }
     }
-    let Some(place) = factors.iter().position(|(found, _)| found == name) else {
-        let hint = did_you_mean(&nearest(name, factors.iter().map(|(name, _)| name.as_str())));
-        return Err(format!("the study has no factor `{name}`{hint}"));
-    };
-    Ok(factors.swap_remove(place).1)
+    let hint = did_you_mean(&nearest(name, names.iter().map(String::as_str)));
+    Err(format!("the study has no factor `{name}`{hint}"))
 }
 
 /// Replaces the keys of a factor by those of `table`. It keeps its name.
@@ -147,8 +150,8 @@ fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(),
     let mut table = table;
     for name in path {
         let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
-        let refusal = || format!("`{name}` is not a table of the study, so it has no keys to set");
-        table = next.as_table_like_mut().ok_or_else(refusal)?;
+        let next = next.as_table_like_mut();
+        table = next.ok_or_else(|| format!("`{name}` is not a table of the study, so it has no keys to set"))?;
     }
     table.insert(last, Item::Value(value));
     Ok(())

@@ -53,5 +53,8 @@ fn without_null(schema: &mut Schema) {
             object.insert("allOf".to_owned(), json!([only]));
         }
     }
+    if object.get("default").is_some_and(Value::is_null) {
+        object.remove("default");
+    }
     object.remove("format");
 }

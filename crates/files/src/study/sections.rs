@@ -1,6 +1,5 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text, once
-//! [`resolve`](super::resolve) has brought what can be written in several ways to one. The comments on its fields are what
-//! editors show, by the schema.
+//! The study file as TOML sees it, every value with its place in the text, after [`parse`](super::parse) has converted what
+//! can be written in several ways. Editors show the comments on its fields, by the schema.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,14 +19,15 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde_json::json;
 
-use super::at::ListOrTable;
-pub(super) use super::at::{At, Choices};
-use super::command::CommandKey;
-use super::key_schemas::{self, names};
+use super::at::{At, Choices};
+use super::context::names_of;
+use super::key_schemas;
+use super::output_table::Outputs;
+use crate::{ModelKind, Protocol};
 
 /// A study of apportion: a model, the factors to compare, and the number of model runs.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 #[schemars(title = "apportion study")]
 pub(super) struct StudyFile {
     /// Name of the result files; by default the name of the study file without its ending.
@@ -35,29 +35,24 @@ pub(super) struct StudyFile {
     /// Title of the report.
     pub title: Option<At<String>>,
     /// The model; `apportion models` lists all of them.
-    #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
+    #[schemars(extend("enum" = ModelKind::all().iter().map(|kind| kind.name).collect::<Vec<_>>(), "default" = "afm"))]
     pub model: Option<At<String>>,
     /// Outputs: a list of names, by default the model's first. For formulas, a table: outputs.y = "x1 + x2". For programs
     /// and external models, also a table of units: outputs.y = "nN".
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Outputs>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::afm")]
     pub afm: Option<At<Choices>>,
     /// Parameters of a function with known indices.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
     /// Constants of formulas.
-    #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
     /// The program that is the model: a list of the program and its arguments, or a table.
-    #[serde(default)]
-    pub command: Option<At<CommandKey>>,
+    #[schemars(schema_with = "key_schemas::list_or_table::<CommandSection>")]
+    pub command: Option<At<CommandSection>>,
     /// The noise of a stochastic model: the name of the seed that it gets with every row, or a table.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
     pub noise: Option<At<NoiseSection>>,
     /// Required accuracy: the half width that the 95 % interval of every first-order and total index must
@@ -65,35 +60,63 @@ pub(super) struct StudyFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub accuracy: Option<At<f64>>,
     /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
-    #[serde(default)]
     pub dependence: Vec<At<DependenceSection>>,
     /// Cheaper models of the same outputs, used in place of the model where they help.
-    #[serde(default)]
     pub fidelity: Option<At<FidelitySection>>,
     /// The points at which the model runs.
-    #[serde(default)]
     pub design: DesignSection,
     /// Results in addition to first-order and total indices, and how they are estimated.
-    #[serde(default)]
     pub analysis: AnalysisSection,
     /// The inputs to compare: tables [[factor]]. Their order in the file assigns the dimensions of the sequence.
-    #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
     /// The same, one line for each factor.
-    #[serde(default)]
     #[schemars(skip)]
     pub factors: BTreeMap<At<String>, At<FactorSection>>,
 }
 
-/// Names of outputs, or a table with one entry for each.
-pub(super) type Outputs = ListOrTable<Choices>;
+/// A program of your own as the model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, expecting = "a list in square brackets, or a table")]
+pub(super) struct CommandSection {
+    /// The program and its arguments; no shell reads them.
+    #[schemars(length(min = 1))]
+    pub program: Option<At<Vec<At<String>>>>,
+    /// The format of rows and answers of a program that is kept alive.
+    #[schemars(extend("enum" = names_of::<Protocol>(), "default" = "csv"))]
+    pub protocol: Option<At<String>>,
+    /// Number of processes at the same time; by default the number of cores.
+    #[schemars(range(min = 1, max = 1024))]
+    pub workers: Option<At<u64>>,
+    /// Time limit for a row, as in "60 s"; by default none.
+    pub timeout: Option<At<String>>,
+    /// How often a row is retried after the program crashed, hung or printed an invalid answer; once by default.
+    #[schemars(range(max = 100))]
+    pub retries: Option<At<u64>>,
+    /// Working directory of the program, relative to the study; by default the folder of the study.
+    pub directory: Option<At<String>>,
+    /// Environment variables that are set for the program.
+    pub env: BTreeMap<String, String>,
+    /// Other files that its answers depend on, such as data, relative to the study: recorded answers from before a change of these
+    /// files are not reused. The program and files among its arguments are included; list what they import.
+    pub depends_on: Vec<At<String>>,
+    /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
+    /// row, in its own directory.
+    pub template: Option<At<String>>,
+    /// Name of the input file in the directory of a run; by default that of the template.
+    pub input: Option<At<String>>,
+    /// Files that are copied to the directory of each run, relative to the study.
+    pub files: Vec<At<String>>,
+    /// Whether paths in this table may lead outside the study's folder.
+    pub files_outside: Option<At<bool>>,
+    /// Folder that keeps the directories of runs, relative to the study; by default each is removed after its run.
+    pub keep: Option<At<String>>,
+}
 
 /// Constants of formulas.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table [expression]")]
+#[serde(default, deny_unknown_fields, expecting = "a table [expression]")]
 pub(super) struct ExpressionSection {
     /// Numbers, or quantities with units, that formulas may use.
-    #[serde(default)]
     #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
 }
@@ -121,7 +144,7 @@ pub(super) struct DependenceSection {
     pub correlation: Option<At<Correlation>>,
     /// Measure of correlation: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
     /// ("normal"), which are the parameters of the copula.
-    #[schemars(extend("enum" = names(&CorrelationMeasure::ALL, CorrelationMeasure::name), "default" = "pearson"))]
+    #[schemars(extend("enum" = names_of::<CorrelationMeasure>(), "default" = "pearson"))]
     pub measure: Option<At<String>>,
     /// Instead of `correlation`: a CSV file of joint measurements, relative to the study, with a column named after each
     /// factor. The correlations are those of the normal scores of their ranks.
@@ -136,7 +159,6 @@ pub(super) struct DependenceSection {
 pub(super) enum Correlation {
     /// Of every pair.
     Pairs(f64),
-    /// The whole matrix.
     Matrix(Vec<Vec<f64>>),
 }
 
@@ -159,7 +181,7 @@ pub(super) struct NoiseSection {
 #[serde(deny_unknown_fields, expecting = "a table [design]")]
 pub(super) struct DesignSection {
     /// Kind of points: Sobol', random, or a Latin hypercube.
-    #[schemars(extend("enum" = names(&Sampler::ALL, Sampler::name), "default" = "sobol"))]
+    #[schemars(extend("enum" = names_of::<Sampler>(), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
     /// Total number of base samples, preferably a power of two for each replicate; the study costs base_samples x (2 + factors) runs.
     pub base_samples: Option<At<u64>>,
@@ -184,11 +206,11 @@ pub(super) type NameList = At<Vec<At<String>>>;
 #[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
     /// Further estimators, in addition to the default ones.
-    #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
+    #[schemars(extend("items" = json!({ "enum": names_of::<Estimator>() })))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// What has indices: every factor, and the groups in addition; or the groups in place of their factors, which takes the runs
     /// of so many factors.
-    #[schemars(extend("enum" = names(&IndicesOf::ALL, IndicesOf::name), "default" = "factors"))]
+    #[schemars(extend("enum" = names_of::<IndicesOf>(), "default" = "factors"))]
     pub indices_of: Option<At<String>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
@@ -198,7 +220,7 @@ pub(super) struct AnalysisSection {
     /// for up to 8 factors. By default for up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
     /// Other measures of the influence of every factor, from the first 4096 rows A and B; for at most 100 outputs.
-    #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
+    #[schemars(extend("items" = json!({ "enum": names_of::<Measure>() })))]
     pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
@@ -209,11 +231,11 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("default" = true))]
     pub convergence: Option<At<bool>>,
     /// How intervals are estimated; the default depends on the sampler.
-    #[schemars(extend("enum" = names(&IntervalMethod::ALL, IntervalMethod::name)))]
+    #[schemars(extend("enum" = names_of::<IntervalMethod>()))]
     pub intervals: Option<At<String>>,
     /// Whether surrogates (polynomials fitted to the runs) correct the indices. More accurate, by orders of magnitude for
     /// smooth models; needs time, and memory for all outputs.
-    #[schemars(extend("enum" = names(&SurrogateChoice::ALL, SurrogateChoice::name), "default" = "off"))]
+    #[schemars(extend("enum" = names_of::<SurrogateChoice>(), "default" = "off"))]
     pub surrogate: Option<At<String>>,
     /// Number of resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
@@ -222,7 +244,7 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
     /// What to do when a run fails.
-    #[schemars(extend("enum" = names(&FailurePolicy::ALL, FailurePolicy::name)))]
+    #[schemars(extend("enum" = names_of::<FailurePolicy>()))]
     pub failures: Option<At<String>>,
     /// Largest share of runs that may fail; beyond it no indices are estimated.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
@@ -236,7 +258,7 @@ pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
     /// Its distribution.
-    #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enum" = Kind::all().map(Kind::name).collect::<Vec<_>>(), "default" = "uniform"))]
     #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".
@@ -300,9 +322,9 @@ impl<'de> Visitor<'de> for FactorVisitor {
                 "unit" => fields.unit = Some(map.next_value()?),
                 "group" => fields.group = Some(map.next_value()?),
                 "nominal" => fields.nominal = Some(map.next_value()?),
-                own => {
-                    let key = KEYS.iter().find(|key| key.name == own);
-                    let key = key.ok_or_else(|| A::Error::unknown_field(own, &FACTOR_KEYS))?;
+                name => {
+                    let key = KEYS.iter().find(|key| key.name == name);
+                    let key = key.ok_or_else(|| A::Error::unknown_field(name, &FACTOR_KEYS))?;
                     let (span, value) = typed_value(key.kind, &mut map)?;
                     fields.keys.push(TypedKey { key, span, value });
                 }
@@ -314,18 +336,18 @@ impl<'de> Visitor<'de> for FactorVisitor {
 }
 
 fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Range<usize>, TypedValue), A::Error> {
-    fn parts<T>(value: At<T>, of: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
-        (value.span(), of(value.into_inner()))
-    }
-    let plain = TypedValue::Parameter;
     Ok(match kind {
-        KeyKind::Number => parts(map.next_value()?, |number| plain(Parameter::Number(number))),
-        KeyKind::Numbers => parts(map.next_value()?, |list| plain(Parameter::List(list))),
+        KeyKind::Number => spanned(map.next_value()?, |number| TypedValue::Parameter(Parameter::Number(number))),
+        KeyKind::Numbers => spanned(map.next_value()?, |list| TypedValue::Parameter(Parameter::List(list))),
         KeyKind::Text => map.next_value().map(|text: At<String>| (text.span(), TypedValue::Text(text)))?,
-        KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
-        KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
-        KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
+        KeyKind::Texts => spanned(map.next_value()?, |texts| TypedValue::Parameter(Parameter::Texts(texts))),
+        KeyKind::Bounds => spanned(map.next_value()?, TypedValue::Bounds),
+        KeyKind::Quantiles => spanned(map.next_value()?, TypedValue::Quantiles),
     })
+}
+
+fn spanned<T>(value: At<T>, convert: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
+    (value.span(), convert(value.into_inner()))
 }
 
 /// Keys of a factor that are not about its distribution.
@@ -341,8 +363,8 @@ struct FactorKey(&'static str);
 impl<'de> Deserialize<'de> for FactorKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let typed = String::deserialize(deserializer)?;
-        let known = FACTOR_KEYS.iter().find(|key| **key == typed);
-        known.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
+        let key = FACTOR_KEYS.iter().find(|key| **key == typed);
+        key.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
     }
 }
 

@@ -4,18 +4,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use apportion::model::{
-    Expression, ExpressionModel, Input, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
+    Expression, ExpressionModel, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
 };
-use apportion::space::{Factor, Space};
+use apportion::space::Space;
 use apportion::study::Subject;
 use apportion_base::quantity::{Quantity, Unit};
 use serde_json::{Value, json};
 
-use crate::{CommandModel, CommandSettings, Form, ModelKind, program_files};
+use crate::command::program_files;
+use crate::{CommandModel, CommandSettings, Form, ModelKind};
 
 /// A function with known indices and its parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct KnownSubject {
+pub(super) struct KnownSubject {
     /// The function.
     pub function: KnownFunction,
 }
@@ -26,7 +27,7 @@ pub struct ExpressionSubject {
     /// The requested outputs.
     pub formulas: Vec<Formula>,
     /// The names in formulas in addition to the factors.
-    pub constants: Vec<ExpressionConstant>,
+    pub(super) constants: Vec<ExpressionConstant>,
 }
 
 /// An output by its formula.
@@ -40,20 +41,20 @@ pub struct Formula {
     pub expression: Expression,
 }
 
-/// A program of the user's own.
+/// A user's program.
 #[derive(Debug, Clone)]
-pub struct CommandSubject {
+pub(super) struct CommandSubject {
     /// The program and how it receives rows.
     pub settings: CommandSettings,
     /// The settings that determine its replies, in the terms of the study file.
-    pub(super) stated: Vec<(&'static str, Value)>,
+    pub stated: Vec<(&'static str, Value)>,
     /// Other files that determine its replies.
-    pub(super) depends_on: Vec<PathBuf>,
+    pub depends_on: Vec<PathBuf>,
 }
 
 /// A constant of formulas.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ExpressionConstant {
+pub(super) struct ExpressionConstant {
     /// Its name.
     pub name: String,
     /// Its value as typed; formulas use it in SI.
@@ -66,10 +67,10 @@ impl Subject for ExpressionSubject {
     }
 
     fn model(&self, _space: &Space) -> Arc<dyn Model> {
-        let output = |formula: &Formula| {
+        let formulas = self.formulas.iter().map(|formula| {
             (Output::new(formula.name.clone(), formula.unit.clone(), "a formula"), formula.expression.clone())
-        };
-        Arc::new(ExpressionModel::new(self.formulas.iter().map(output).collect()))
+        });
+        Arc::new(ExpressionModel::new(formulas.collect()))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -78,8 +79,8 @@ impl Subject for ExpressionSubject {
     }
 
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
-        let constant = |c: &ExpressionConstant| (c.name.clone(), c.quantity.value, c.quantity.unit.to_string());
-        self.constants.iter().map(constant).collect()
+        let constants = self.constants.iter();
+        constants.map(|c| (c.name.clone(), c.quantity.value, c.quantity.unit.to_string())).collect()
     }
 }
 
@@ -116,20 +117,17 @@ impl Subject for KnownSubject {
 
     fn model(&self, space: &Space) -> Arc<dyn Model> {
         let inputs = known_inputs(&self.function);
-        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
         let base = inputs.iter().map(|input| input.nominal).collect();
-        let factors = space.factors().iter().filter_map(place).collect();
-        Arc::new(known_model(self.function.clone(), base, factors))
+        let factors = space.factors().iter();
+        let factors = factors.filter_map(|factor| inputs.iter().position(|input| input.name == factor.name));
+        Arc::new(known_model(self.function.clone(), base, factors.collect()))
     }
 
     fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
         let inputs = known_inputs(&self.function);
-        let is_own = |(factor, input): (&Factor, &Input)| {
-            factor.name == input.name && input.distribution.as_ref() == Some(factor.distribution())
-        };
-        let factors = space.factors();
-        let all = factors.len() == inputs.len() && factors.iter().zip(&inputs).all(is_own);
-        let indices = self.function.exact().indices.filter(|_| all)?;
+        let factors = space.factors().iter().map(|factor| (&factor.name, Some(factor.distribution())));
+        let is_default = factors.eq(inputs.iter().map(|input| (&input.name, input.distribution.as_ref())));
+        let indices = self.function.exact().indices.filter(|_| is_default)?;
         Some((indices.first_order, indices.total))
     }
 
@@ -139,14 +137,15 @@ impl Subject for KnownSubject {
 
     /// Inputs with a domain are quantities; the description of the others is their distribution.
     fn meaning(&self, input: &str) -> Option<String> {
-        let own = self.function.inputs().iter().find(|own| own.name == input && own.domain.is_some());
-        own.map(|own| own.description.clone())
+        let inputs = self.function.inputs();
+        let input = inputs.iter().find(|other| other.name == input && other.domain.is_some())?;
+        Some(input.description.clone())
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        let is_fixed = |input: &Input| space.factors().iter().all(|factor| factor.name != input.name);
-        let inputs = known_inputs(&self.function).into_iter().filter(is_fixed);
-        inputs.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
+        let inputs = known_inputs(&self.function).into_iter();
+        let fixed = inputs.filter(|input| space.factors().iter().all(|factor| factor.name != input.name));
+        fixed.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
     }
 }
 

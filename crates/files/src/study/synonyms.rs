@@ -30,7 +30,7 @@ fn of_others(term: &str) -> &'static [&'static str] {
         // Keys of the design and of the analysis.
         "n" | "samples" | "n_samples" | "nsamples" | "num_samples" | "sample_size" => &["base_samples"],
         "method" | "sampling" | "sequence" => &["sampler"],
-        "budget_runs" | "plain_rows" | "n_runs" | "evaluations" => &["runs"],
+        "n_runs" | "evaluations" => &["runs"],
         "max_evaluations" | "max_evals" => &["max_runs"],
         "budget" | "time_limit" => &["max_time"],
         "target" | "half_width" => &["accuracy"],
@@ -62,11 +62,10 @@ fn of_others(term: &str) -> &'static [&'static str] {
     }
 }
 
-/// Suggests what `name` may mean where only `known` names are valid: the synonym in our words, or the nearest spelling.
+/// Suggests what `name` may mean where only the names `valid` are: the synonym in our words, or the nearest spelling.
 /// Two suggested names are joined by "and".
-pub(super) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let known: Vec<&str> = known.into_iter().collect();
+pub(super) fn suggestion_for(name: &str, valid: &[&str]) -> Option<String> {
     let ours = of_others(&name.to_lowercase());
-    let is_known = !ours.is_empty() && ours.iter().all(|name| known.contains(name));
-    if is_known { Some(ours.join(" and ")) } else { nearest(name, known) }
+    let is_valid = !ours.is_empty() && ours.iter().all(|name| valid.contains(name));
+    if is_valid { Some(ours.join(" and ")) } else { nearest(name, valid.iter().copied()) }
 }

@@ -6,8 +6,8 @@ use apportion_afm::Options;
 use apportion_base::text::capitalised;
 
 use super::context::unknown_name;
-use super::distribution::with_unit;
 use super::error::Problem;
+use super::units::with_unit;
 use crate::ModelKind;
 
 /// The request for a new study.
@@ -50,29 +50,20 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     let model = request.model;
     let (model_lines, factors) = if model.is_users_own() { of_user(request) } else { of_model(request)? };
     let settings = DesignSettings::default();
-    let title = |text: String| format!("title = {}", toml::Value::String(text));
     let title = match &request.title {
-        Some(text) => title(text.clone()),
-        None if model.is_users_own() => format!("# {}", title("For the page and the charts".to_owned())),
-        None => title(capitalised(model.description)),
+        Some(text) => format!("title = {}", toml::Value::from(text.as_str())),
+        None if model.is_users_own() => "# title = \"For the page and the charts\"".to_owned(),
+        None => format!("title = {}", toml::Value::String(capitalised(model.description))),
     };
     Ok(format!(
-        "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
-         # `apportion check FILE` explains it and its cost, `apportion run FILE` runs it,\n\
-         # `apportion models {name}` lists all keys and values.\n\n\
-         {title}\nmodel = \"{name}\"\n{model_lines}\n\
-         # The cost is base_samples x (2 + factors) runs: {runs} here. With more of them the intervals are narrower.\n\
-         [design]\n\
-         base_samples = {base_samples}    # or runs = 300 where runs take minutes; or accuracy = 0.01 above all tables\n\
-         seed = {seed}    # the same seed gives the same numbers, on any machine and any number of threads\n\n\
-         # The inputs to compare: uniform from min to max, or distribution = \"normal\" with mean and sd,\n\
-         # and many others (docs/factors.md). Factors that name the same `group` also get joint indices.\n\
-         [factors]\n{lines}",
+        include_str!("../../templates/new/study.toml"),
         name = model.name,
+        title = title,
+        model = model_lines,
         runs = settings.base_samples * (2 + factors.len() as u64),
         base_samples = settings.base_samples,
         seed = settings.seed,
-        lines = factors.concat(),
+        factors = factors.concat(),
     ))
 }
 
@@ -82,55 +73,42 @@ pub fn new_program(request: &TemplateRequest) -> Option<String> {
     if request.model != ModelKind::COMMAND {
         return None;
     }
-    let (factors, outputs) = own_names(request);
+    let (factors, outputs) = names(request);
     // Strings of JSON are also strings of Python.
-    let value = |name: &String| format!("x[{}]", serde_json::Value::from(name.as_str()));
-    let sum = factors.iter().map(value).collect::<Vec<_>>().join(" + ");
-    let values = vec!["y"; outputs.len()].join(", ");
-    Some(format!(
-        "import csv\nimport sys\n\n\
-         # One line in for each row: its number and the factor values. One line out: the number and the outputs.\n\
-         # Print nothing else, or to sys.stderr.\n\
-         for row in csv.DictReader(sys.stdin):\n    number = row.pop(\"id\")\n    \
-         x = {{name: float(value) for name, value in row.items()}}\n    \
-         y = {sum}\n    print(number, {values}, sep=\",\", flush=True)    # id, {}\n",
-        outputs.join(", ")
-    ))
+    let values = factors.iter().map(|name| format!("x[{}]", serde_json::Value::from(name.as_str())));
+    let sum = values.collect::<Vec<_>>().join(" + ");
+    let (values, outputs) = (vec!["y"; outputs.len()].join(", "), outputs.join(", "));
+    Some(format!(include_str!("../../templates/new/my_model.py"), sum = sum, values = values, outputs = outputs))
 }
 
-/// Returns names of factors and outputs for a model without its own.
-fn own_names(request: &TemplateRequest) -> (Vec<String>, Vec<String>) {
-    let named = |names: &[String], default: &[&str]| -> Vec<String> {
-        if names.is_empty() { default.iter().map(|&name| name.to_owned()).collect() } else { names.to_vec() }
-    };
-    (named(&request.factors, &["x1", "x2"]), named(&request.outputs, &["y"]))
+/// Returns the requested names of factors and outputs, or default ones, for a model that has none.
+fn names(request: &TemplateRequest) -> (Vec<String>, Vec<String>) {
+    let (mut factors, mut outputs) = (request.factors.clone(), request.outputs.clone());
+    if factors.is_empty() {
+        factors.extend(["x1", "x2"].map(str::to_owned));
+    }
+    if outputs.is_empty() {
+        outputs.push("y".to_owned());
+    }
+    (factors, outputs)
 }
 
 /// Returns the lines on outputs and model, and those of the factors, of the user's own model.
 fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
-    let (factors, outputs) = own_names(request);
-    let sum = toml::Value::String(factors.join(" + "));
-    let lines = |value: &str| -> String {
-        outputs.iter().map(|output| format!("outputs.{} = {value}\n", bare_or_quoted(output))).collect()
+    let (factors, outputs) = names(request);
+    let value = match request.model {
+        kind if kind == ModelKind::EXPRESSION => toml::Value::String(factors.join(" + ")).to_string(),
+        _ => "\"1\"".to_owned(),
     };
+    let lines: String = outputs.iter().map(|name| format!("outputs.{} = {value}\n", bare_or_quoted(name))).collect();
     let model = match request.model {
-        kind if kind == ModelKind::EXPRESSION => format!(
-            "# Formulas in the factors and the constants, all in SI units.\n{}\n[expression]\n\
-             # constants.a = 7    # a number, or a quantity as in \"10 nm\"\n",
-            lines(&sum.to_string())
-        ),
-        kind if kind == ModelKind::COMMAND => format!(
-            "# What the program prints, in its order, with units.\n{}\n\
-             # It is started once for each core and kept alive: it reads one line for each row and prints one.\n\
-             [command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
-             # timeout = \"60 s\"    # for a row, after which the program is started again [default: none]\n",
-            lines("\"1\"")
-        ),
-        _ => format!(
-            "# Units of the outputs. `apportion sample FILE -o design.csv` writes the points, and when the model has computed\n\
-             # its outputs there, `apportion analyze outputs.csv --design design.csv` reads them.\n{}",
-            lines("\"1\"")
-        ),
+        kind if kind == ModelKind::EXPRESSION => {
+            format!(include_str!("../../templates/new/expression.toml"), outputs = lines)
+        }
+        kind if kind == ModelKind::COMMAND => {
+            format!(include_str!("../../templates/new/command.toml"), outputs = lines, program = NEW_PROGRAM)
+        }
+        _ => format!(include_str!("../../templates/new/external.toml"), outputs = lines),
     };
     (model, factors.iter().map(|name| format!("{} = {{ min = 0, max = 1 }}\n", bare_or_quoted(name))).collect())
 }
@@ -139,31 +117,37 @@ fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
 fn of_model(request: &TemplateRequest) -> Result<(String, Vec<String>), Problem> {
     let model = request.model;
     let (inputs, outputs) = (model.inputs(), model.outputs());
-    let input = |name: &str| {
-        let found = inputs.iter().find(|input| input.name == name);
-        found.ok_or_else(|| unknown_name("factor", name, inputs.iter().map(|input| input.name.as_str())))
-    };
-    let factors: Vec<&Input> = match (&request.factors[..], model.main_inputs) {
-        ([], []) => inputs.iter().collect(),
-        ([], main) => main.iter().map(|name| input(name)).collect::<Result<_, _>>()?,
-        (names, _) => names.iter().map(|name| input(name)).collect::<Result<_, _>>()?,
-    };
-    let is_known = |name: &&String| outputs.iter().any(|output| output.name == **name);
-    if let Some(name) = request.outputs.iter().find(|name| !is_known(name)) {
-        return Err(unknown_name("output", name, outputs.iter().map(|output| &*output.name)));
+    let mut names: Vec<&str> = request.factors.iter().map(String::as_str).collect();
+    if names.is_empty() && model.main_inputs.is_empty() {
+        names.extend(inputs.iter().map(|input| input.name.as_str()));
+    } else if names.is_empty() {
+        names.extend(model.main_inputs);
     }
-    let is_asked = |output: &&Output| match &request.outputs[..] {
-        [] => output.name == outputs[0].name,
-        names => names.iter().any(|name| *name == *output.name),
-    };
-    let (asked, others): (Vec<&Output>, Vec<&Output>) = outputs.iter().partition(is_asked);
-    let names = |outputs: &[&Output]| outputs.iter().map(|o| format!("\"{}\"", o.name)).collect::<Vec<_>>().join(", ");
-    let mut text = format!("outputs = [{}]\n", names(&asked));
+    let mut factors = Vec::with_capacity(names.len());
+    for name in names {
+        let input = inputs.iter().find(|input| input.name == name);
+        let input = input.ok_or_else(|| unknown_name("factor", name, inputs.iter().map(|input| &*input.name)))?;
+        factors.push(factor_line(input));
+    }
+    let valid = outputs.iter().map(|output| &*output.name);
+    if let Some(name) = request.outputs.iter().find(|name| !valid.clone().any(|output| output == *name)) {
+        return Err(unknown_name("output", name, valid));
+    }
+    let (chosen, others): (Vec<&Output>, Vec<&Output>) =
+        outputs.iter().partition(|output| match &request.outputs[..] {
+            [] => output.name == outputs[0].name,
+            names => names.iter().any(|name| *name == *output.name),
+        });
+    let mut text = format!("outputs = [{}]\n", quoted_names(&chosen));
     if !others.is_empty() {
-        text.push_str(&format!("# also: {}\n", names(&others)));
+        text.push_str(&format!("# also: {}\n", quoted_names(&others)));
     }
     text.push_str(&if model == ModelKind::AFM { afm_table() } else { function_table(model) });
-    Ok((text, factors.into_iter().map(factor_line).collect()))
+    Ok((text, factors))
+}
+
+fn quoted_names(outputs: &[&Output]) -> String {
+    outputs.iter().map(|output| format!("\"{}\"", output.name)).collect::<Vec<_>>().join(", ")
 }
 
 /// Lists the current choices, and explains how to fix a constant.
@@ -185,22 +169,20 @@ fn afm_table() -> String {
 /// Lists the current parameters of a function, as comments.
 fn function_table(model: ModelKind) -> String {
     let Some(answer) = model.known else { return String::new() };
-    let about = |name: &str| answer.parameters.iter().find(|p| p.name == name).map_or("", |p| p.description);
-    let function = answer.default_function();
-    let lines: String = function
-        .parameters()
-        .iter()
-        .map(|(name, value)| format!("# {name} = {value}    # {}\n", about(name)))
-        .collect();
-    let table = if lines.is_empty() { "" } else { "[function]\n" };
-    format!("\n# {}\n{table}{lines}", answer.formula)
+    let mut text = format!("\n# {}\n", answer.formula);
+    for (number, (name, value)) in answer.default_function().parameters().iter().enumerate() {
+        let description = answer.parameters.iter().find(|p| p.name == *name).map_or("", |p| p.description);
+        let table = if number == 0 { "[function]\n" } else { "" };
+        text.push_str(&format!("{table}# {name} = {value}    # {description}\n"));
+    }
+    text
 }
 
 /// Formats a factor with its description.
 fn factor_line(input: &Input) -> String {
     let name = bare_or_quoted(&input.name);
     match &input.distribution {
-        Some(own) => format!("{name} = {{}}    # {}, as the function has it\n", own.name()),
+        Some(default) => format!("{name} = {{}}    # {}, as the function has it\n", default.name()),
         None => {
             let (min, max) = range(input);
             let unit = match input.unit.symbol() {
@@ -219,13 +201,12 @@ fn range(input: &Input) -> (f64, f64) {
     if nominal == 0.0 {
         return (0.0, 1.0);
     }
-    let inside = |value: f64| input.domain.is_none_or(|domain| domain.contains(input.unit.to_si(value)));
-    let bound = |factor: f64| {
+    let [a, b] = [0.9, 1.1].map(|factor| {
         // Four significant digits: users will change it.
         let value: f64 = format!("{:.3e}", nominal * factor).parse().unwrap_or(nominal);
-        if inside(value) { value } else { nominal }
-    };
-    let (a, b) = (bound(0.9), bound(1.1));
+        let is_inside = input.domain.is_none_or(|domain| domain.contains(input.unit.to_si(value)));
+        if is_inside { value } else { nominal }
+    });
     (a.min(b), a.max(b))
 }
 

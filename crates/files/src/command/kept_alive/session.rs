@@ -16,7 +16,8 @@ pub(super) const LONGEST: usize = 1 << 20;
 /// do not begin at 1, so that a line about the program's own steps (`1,0.5`) is not taken for a reply.
 const FIRST_NUMBER: u64 = 100_000;
 const NUMBERS: u64 = 900_000;
-const MAX_ASKED: usize = 100_000;
+/// Maximum number of pending rows.
+pub(super) const MAX_PENDING: usize = 100_000;
 
 pub(super) struct Session {
     pub process: Process,
@@ -25,22 +26,22 @@ pub(super) struct Session {
     /// Number of rows sent so far.
     pub sent: u64,
     /// The pending rows by their numbers.
-    pub asked: BTreeMap<u64, usize>,
+    pub pending: BTreeMap<u64, usize>,
     /// Whether its input is closed.
     pub is_closed: bool,
     /// The time of the last reply, or of the first row sent after a pause.
-    heard: Instant,
+    last_reply: Instant,
     /// Bytes of lines that were not replies since the last reply, and a description of the last such line.
     pub strayed: usize,
     pub stray: Option<String>,
     /// The received part of the incomplete line.
-    line: Vec<u8>,
+    pub line: Vec<u8>,
 }
 
 /// The meaning of a row number that a program has printed.
 pub(super) enum Lookup {
     /// A row of the batch that has no reply yet.
-    Asked(usize),
+    Pending(usize),
     Answered,
     Unknown,
 }
@@ -51,36 +52,31 @@ impl Session {
             process,
             credit: IN_TRANSIT,
             sent: 0,
-            asked: BTreeMap::new(),
+            pending: BTreeMap::new(),
             is_closed: false,
-            heard: Instant::now(),
+            last_reply: Instant::now(),
             strayed: 0,
             stray: None,
             line: Vec::new(),
         }
     }
 
-    /// Returns whether more rows can be sent before it replies.
-    pub(super) fn has_room(&self) -> bool {
-        self.asked.len() < MAX_ASKED
-    }
-
     /// Records that a row is sent, and returns its number.
     pub(super) fn ask(&mut self, row: usize) -> u64 {
         let number = FIRST_NUMBER + self.sent % NUMBERS;
-        if self.asked.is_empty() {
+        if self.pending.is_empty() {
             // Time without pending rows does not count.
-            self.heard = Instant::now();
+            self.last_reply = Instant::now();
         }
-        self.asked.insert(number, row);
+        self.pending.insert(number, row);
         self.sent += 1;
         number
     }
 
     /// Finds the row of that number and marks it as answered.
     pub(super) fn find(&mut self, number: u64) -> Lookup {
-        match self.asked.remove(&number) {
-            Some(row) => Lookup::Asked(row),
+        match self.pending.remove(&number) {
+            Some(row) => Lookup::Pending(row),
             None if (FIRST_NUMBER..FIRST_NUMBER + self.sent.min(NUMBERS)).contains(&number) => Lookup::Answered,
             None => Lookup::Unknown,
         }
@@ -93,21 +89,15 @@ impl Session {
     }
 
     pub(super) fn silent_for(&self) -> Duration {
-        self.heard.elapsed()
+        self.last_reply.elapsed()
     }
 
     /// Records a reply and returns its time, the start of the process included.
     pub(super) fn note_answer(&mut self) -> Duration {
         let took = self.silent_for();
-        self.heard = Instant::now();
+        self.last_reply = Instant::now();
         self.strayed = 0;
         took
-    }
-
-    /// Records a line of `length` bytes that is not a reply.
-    pub(super) fn note_stray(&mut self, words: String, length: usize) {
-        self.strayed += length.max(1);
-        self.stray = Some(words);
     }
 
     /// Returns the lines that `bytes` complete.
@@ -120,11 +110,6 @@ impl Session {
             }
         }
         lines
-    }
-
-    /// Returns the number of bytes of the incomplete line.
-    pub(super) fn unfinished(&self) -> usize {
-        self.line.len()
     }
 }
 
@@ -161,17 +146,17 @@ impl<'a> Rows<'a> {
 
     /// Records that a process ended while the row was pending, and returns how many have so far. A process that had
     /// answered other rows counts only once: it may have ended for another reason.
-    pub(super) fn suspect(&mut self, row: usize, is_own: bool) -> u32 {
+    pub(super) fn suspect(&mut self, row: usize, is_alone: bool) -> u32 {
         let is_new = !self.suspects.contains_key(&row);
         let count = self.suspects.entry(row).or_default();
-        *count += u32::from(is_own || is_new);
+        *count += u32::from(is_alone || is_new);
         *count
     }
 
     /// Sets the requested ones of the program's `values`.
     pub(super) fn answer(&mut self, row: usize, values: &[f64]) {
         let settings = &self.model.settings;
-        for (column, place) in settings.asked.iter().enumerate() {
+        for (column, place) in settings.requested.iter().enumerate() {
             self.batch.set(row, column, settings.outputs[*place].unit.to_si(values[*place]));
             if !values[*place].is_finite() {
                 self.failures.push((row, Some(column), not_a_value(values[*place])));

@@ -62,11 +62,7 @@ impl CsvRows {
             }
         };
         let Some((record, line)) = first else {
-            let (names, comment) = (expanded(&options.names), expanded(&comment));
-            let names = if names.is_empty() { comment } else { names };
-            check_names(&names)?;
-            (self.width, self.names) = (names.len(), Some(names));
-            return Ok(());
+            return self.set_names(if options.names.is_empty() { &comment } else { &options.names });
         };
         let numbers = record.iter().filter_map(number).collect::<Vec<f64>>();
         let (has_numbers, of_numbers) = (!numbers.is_empty(), numbers.len() == record.len());
@@ -86,15 +82,20 @@ impl CsvRows {
                     "its header names the columns ({known}): leave --names out, or add --no-header if the first line is a row"
                 ));
             }
-            let names = expanded(&cells);
-            check_names(&names)?;
-            (self.width, self.names) = (names.len(), Some(names));
-            return Ok(());
+            return self.set_names(&cells);
         }
         let names = if options.names.is_empty() && !options.no_header { comment } else { options.names.clone() };
         self.width = record.len();
-        self.names = names_of_columns(expanded(&names), self.width)?;
+        self.names = names_of_columns(&names, self.width)?;
         self.ahead.push_back((record, line));
+        Ok(())
+    }
+
+    /// Sets the names of all columns.
+    fn set_names(&mut self, names: &[String]) -> Result<(), TableError> {
+        let names = expanded(names);
+        check_names(&names)?;
+        (self.width, self.names) = (names.len(), Some(names));
         Ok(())
     }
 
@@ -105,8 +106,8 @@ impl CsvRows {
                 return Ok(Some((record, line)));
             }
             if !record[0].starts_with('#') || is_error_word(&record[0]) {
-                let (expected, found) = (self.width, record.len());
-                return refused(format!("line {line}: expected {expected} cells as in the header, not {found}"));
+                let (width, cells) = (self.width, record.len());
+                return refused(format!("line {line}: expected {width} cells as in the header, not {cells}"));
             }
         }
         Ok(None)
@@ -140,14 +141,14 @@ impl RowReader for CsvRows {
         {
             self.ahead.push_back(next);
         }
-        let number = ColumnKind::default();
-        let text = |place: usize| {
+        let (kind, mut columns) = (ColumnKind::default(), Vec::new());
+        for place in 0..self.width {
             let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
             // The first cell with a value decides.
-            let cell = cells.find(|cell| !number.value(cell).is_some_and(f64::is_nan))?;
-            number.value(cell).is_none().then(|| (place, cell.to_owned()))
-        };
-        Ok((0..self.width).filter_map(text).collect())
+            let cell = cells.find(|cell| !kind.value(cell).is_some_and(f64::is_nan));
+            columns.extend(cell.filter(|cell| kind.value(cell).is_none()).map(|cell| (place, cell.to_owned())));
+        }
+        Ok(columns)
     }
 
     fn line(&self, row: usize) -> Option<u64> {
@@ -158,13 +159,8 @@ impl RowReader for CsvRows {
         self.csv.get_ref().is_unended()
     }
 
-    fn read(
-        &mut self,
-        wanted: &[(usize, ColumnKind)],
-        rows: usize,
-        into: &mut [Vec<f64>],
-    ) -> Result<usize, TableError> {
-        into.iter_mut().for_each(Vec::clear);
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, to: &mut [Vec<f64>]) -> Result<usize, TableError> {
+        to.iter_mut().for_each(Vec::clear);
         self.lines.clear();
         for row in 0..rows {
             let next = match self.ahead.pop_front() {
@@ -174,7 +170,7 @@ impl RowReader for CsvRows {
             let Some((record, line)) = next else { return Ok(row) };
             self.rows += 1;
             self.lines.push(line);
-            for ((place, kind), column) in wanted.iter().zip(&mut *into) {
+            for ((place, kind), column) in wanted.iter().zip(&mut *to) {
                 let cell = &record[*place];
                 let value = kind.value(cell).or_else(|| kind.value(plain_field(cell))).ok_or_else(|| {
                     let decimal_comma = kind.labels.is_empty() && number(&cell.replacen(',', ".", 1)).is_some();

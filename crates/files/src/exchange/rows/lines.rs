@@ -29,10 +29,8 @@ impl Lines {
     pub(super) fn new(mut reader: Box<dyn Read>) -> Result<Self> {
         let mut begin = beginning(&mut reader)?;
         if begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff") {
-            let text = utf16(begin, reader)?;
-            begin = Vec::new();
-            reader = Box::new(Cursor::new(text));
-            begin.extend(beginning(&mut reader)?);
+            reader = Box::new(Cursor::new(utf16(begin, reader)?));
+            begin = beginning(&mut reader)?;
         }
         if begin.starts_with(b"\xef\xbb\xbf") {
             begin.drain(..3);
@@ -127,27 +125,33 @@ fn separator(begin: &[u8]) -> u8 {
         quoted ^= **byte == b'"';
         !quoted
     });
-    let found: Vec<u8> = outside.by_ref().copied().filter(|byte| matches!(byte, b',' | b';' | b'\t')).collect();
-    if let Some(first) = found.iter().find(|byte| **byte == b',').or(found.first()) {
+    let separators: Vec<u8> = outside.by_ref().copied().filter(|byte| matches!(byte, b',' | b';' | b'\t')).collect();
+    if let Some(first) = separators.iter().find(|byte| **byte == b',').or(separators.first()) {
         return *first;
     }
-    let cells = |line: &[u8]| line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty()).count();
     let second = lines.next().filter(|second| !second.contains(&b','));
-    let has_blanks = cells(first) > 1 && second.is_none_or(|second| cells(second) == cells(first));
+    let has_blanks = cell_count(first) > 1 && second.is_none_or(|second| cell_count(second) == cell_count(first));
     let is_text = second.is_none() && first.iter().any(u8::is_ascii_alphabetic);
     if has_blanks && !is_text { b' ' } else { b',' }
 }
 
+/// Returns the number of cells of a line if blanks separate them.
+fn cell_count(line: &[u8]) -> usize {
+    line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty()).count()
+}
+
 /// Converts a text in UTF-16 with this beginning to bytes of UTF-8.
 fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
-    let (mut bytes, invalid) = (begin, |what: String| Error::new(ErrorKind::InvalidData, what));
+    let mut bytes = begin;
     rest.take(MAX_STREAM_BYTES).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_STREAM_BYTES {
-        return Err(invalid(format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MAX_STREAM_BYTES >> 20)));
+        let message = format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MAX_STREAM_BYTES >> 20);
+        return Err(Error::new(ErrorKind::InvalidData, message));
     }
     let of_pair = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
     let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| of_pair([pair[0], pair[1]])).collect();
-    String::from_utf16(&units)
-        .map(String::into_bytes)
-        .map_err(|_| invalid("its first bytes say UTF-16, but it is not text in UTF-16: save it as UTF-8".to_owned()))
+    String::from_utf16(&units).map(String::into_bytes).map_err(|_| {
+        let message = "its first bytes say UTF-16, but it is not text in UTF-16: save it as UTF-8";
+        Error::new(ErrorKind::InvalidData, message)
+    })
 }

@@ -44,12 +44,11 @@ impl Format {
     /// [`TableError`] for any other.
     pub fn from_path(path: &Path) -> Result<Self, TableError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let known = |format: &Self| ending.as_deref() == Some(format.name());
-        if let Some(format) = Self::ALL.into_iter().find(known) {
+        if let Some(format) = Self::ALL.into_iter().find(|format| ending.as_deref() == Some(format.name())) {
             return Ok(format);
         }
-        let found = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
-        refused(format!("the ending of the name gives the format: expected .csv or .npy{found}"))
+        let ending = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
+        refused(format!("the ending of the name gives the format: expected .csv or .npy{ending}"))
     }
 }
 
@@ -85,11 +84,12 @@ impl ColumnKind {
         self.labels.iter().find(|(_, number)| *number == value).map(|(label, _)| label.as_str())
     }
 
-    fn value_of(&self, label: &str) -> Option<f64> {
-        // Python and spreadsheets write the labels of a boolean in capitals.
-        let is_it =
-            |known: &str| known == label || matches!(known, "true" | "false") && known.eq_ignore_ascii_case(label);
-        self.labels.iter().find(|(known, _)| is_it(known)).map(|(_, value)| *value)
+    fn value_of(&self, text: &str) -> Option<f64> {
+        let label = self.labels.iter().find(|(label, _)| {
+            // Python and spreadsheets write the labels of a boolean in capitals.
+            label == text || matches!(&label[..], "true" | "false") && label.eq_ignore_ascii_case(text)
+        });
+        label.map(|(_, value)| *value)
     }
 
     /// Returns the number in a cell of text: of a label, or of its number; for a column of numbers any number,
@@ -120,11 +120,10 @@ impl ColumnKind {
 
 /// Parses a number as programs print it, including Fortran's `D` before the exponent.
 pub(crate) fn number(cell: &str) -> Option<f64> {
-    let of_fortran = || {
+    cell.parse().ok().or_else(|| {
         let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
         if is_plain { cell.replace(['d', 'D'], "e").parse().ok() } else { None }
-    };
-    cell.parse().ok().or_else(of_fortran)
+    })
 }
 
 /// Returns whether the cell holds an error of a spreadsheet, such as `#N/A` and `#DIV/0!`.
@@ -160,14 +159,13 @@ pub trait RowReader {
         false
     }
 
-    /// Reads at most `rows` rows of some columns into `into`, one vector for each of `wanted` (number of the column
+    /// Reads at most `rows` rows of some columns into `to`, one vector for each of `wanted` (number of the column
     /// below [`width`](Self::width), its content; the same ones in every call), and returns how many there were; 0 at
     /// the end.
     ///
     /// # Errors
     /// [`TableError`] with the place of the first error.
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
-    -> Result<usize, TableError>;
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, to: &mut [Vec<f64>]) -> Result<usize, TableError>;
 }
 
 /// Opens the table in `path`, in the format of its first bytes, not of its name: NPY, or text as CSV, which may be
@@ -191,7 +189,7 @@ pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReade
     table_of_bytes(begin, options)
 }
 
-/// Opens the table in `bytes` in the way of [`open_table`].
+/// Opens the table in `bytes` like [`open_table`].
 ///
 /// # Errors
 /// As for [`open_table`].
@@ -278,8 +276,9 @@ fn expanded(names: &[String]) -> Vec<String> {
     all
 }
 
-/// Returns the names of `width` columns, if there are any.
-fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, TableError> {
+/// Returns the names of `width` columns, [expanded], if there are any.
+fn names_of_columns(names: &[String], width: usize) -> Result<Option<Vec<String>>, TableError> {
+    let names = expanded(names);
     if names.is_empty() {
         return Ok(None);
     }
