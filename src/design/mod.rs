@@ -66,7 +66,7 @@ pub const MAX_FACTORS: usize = 10_000;
 pub struct Design {
     settings: DesignSettings,
     factors: usize,
-    asked: Rows,
+    requested: Rows,
     runs: Runs,
     /// The swaps without a common column, whose pairs have second-order indices.
     disjoint: Vec<usize>,
@@ -118,7 +118,7 @@ impl Design {
             return Err(DesignError::TooManyRuns { base_samples: all, rows_per_point });
         }
         settings.base_samples = points * replicates;
-        Ok(Self { settings, factors, asked: rows, runs, disjoint })
+        Ok(Self { settings, factors, requested: rows, runs, disjoint })
     }
 
     /// Returns the settings, with `base_samples` rounded up.
@@ -138,7 +138,7 @@ impl Design {
     /// [`DesignError`] if that is too many or too few.
     pub fn with_points(&self, points: u64) -> Result<Self, DesignError> {
         let base_samples = points.saturating_mul(self.settings.replicates);
-        Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.asked.clone())
+        Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.requested.clone())
     }
 
     /// Returns the longest design that a run of this one can grow into.
@@ -159,30 +159,30 @@ impl Design {
     }
 
     /// Returns the requested rows, including repetitions.
-    pub fn asked(&self) -> &Rows {
-        &self.asked
+    pub fn requested(&self) -> &Rows {
+        &self.requested
     }
 
     /// Returns the columns each AB_s takes from B.
     pub fn swaps(&self) -> &[Swap] {
-        &self.asked.swaps
+        &self.requested.swaps
     }
 
     /// Returns whether every AB_s has a row BA_s.
     pub fn has_ba(&self) -> bool {
-        self.asked.ba
+        self.requested.ba
     }
 
     /// Returns the swaps whose pairs have second-order indices: those that share no column with an earlier one. Empty if second-order indices were not requested.
     pub fn paired(&self) -> &[usize] {
-        if self.asked.second_order { &self.disjoint } else { &[] }
+        if self.requested.second_order { &self.disjoint } else { &[] }
     }
 
     /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
     /// of dependent factors that follow others.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-        self.factors * (2 + self.asked.plain_rows as usize) + mixed
+        self.factors * (2 + self.requested.plain_rows as usize) + mixed
     }
 
     /// Returns the factor of a column.
@@ -202,7 +202,7 @@ impl Design {
 
     /// Returns whether factors depend on each other.
     pub fn is_dependent(&self) -> bool {
-        self.asked.copula.is_some()
+        self.requested.copula.is_some()
     }
 
     /// Returns the index of the first of the d columns of `matrix`.
@@ -212,7 +212,7 @@ impl Design {
 
     /// Returns the number of rows of every base point that are used only to fit surrogates.
     pub fn plain_rows(&self) -> u32 {
-        self.asked.plain_rows
+        self.requested.plain_rows
     }
 
     /// Returns the rows of one base point that are run, in the order in which rows are counted.
@@ -247,7 +247,7 @@ impl Design {
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, &self.asked, self.runs.mixed.clone())
+        BasePoints::new(&self.settings, replicate, self.factors, &self.requested, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of
@@ -282,9 +282,9 @@ impl Design {
             }
         }
         // The variance of a uniform number is 1/12.
-        let of_column = |column: &usize| 12.0 * sums[*column] / self.settings.base_samples as f64;
-        let largest = |swap: &Swap| swap.iter().map(of_column).max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        self.swaps().iter().map(|swap| largest(swap).unwrap_or(0.0)).collect()
+        let correlations: Vec<f64> = sums.iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect();
+        let of_swaps = self.swaps().iter().map(|swap| swap.iter().map(|column| correlations[*column]));
+        of_swaps.map(|swap| swap.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)).collect()
     }
 
     /// Writes row number `row` of the design as a point of the unit cube to `u`, which has one entry per factor.

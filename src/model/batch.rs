@@ -163,12 +163,9 @@ impl Batch {
             if column.iter().fold(true, |all, value| all & value.is_finite()) {
                 continue;
             }
-            for (row, value) in column.iter().enumerate() {
-                let is_named = || {
-                    let place = self.failures[..named].partition_point(|(o, r, _)| (*o, *r) < (output, row));
-                    matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row))
-                };
-                if !value.is_finite() && !is_named() {
+            for (row, _) in column.iter().enumerate().filter(|(_, value)| !value.is_finite()) {
+                let place = self.failures[..named].partition_point(|(o, r, _)| (*o, *r) < (output, row));
+                if !matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row)) {
                     self.failures.push((output, row, unnamed.clone()));
                 }
             }
@@ -198,7 +195,9 @@ impl Batch {
 
     /// Adds flags and counts of rows of this batch that were evaluated earlier.
     pub fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
-        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+        for (mine, theirs) in self.flags.iter_mut().zip(flags) {
+            *mine += theirs;
+        }
         self.counts.merge(counts);
     }
 }

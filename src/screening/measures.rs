@@ -56,13 +56,17 @@ impl Reading {
 /// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
 /// mean if no effect is missing; there is none if leaving out a part leaves too few effects.
 pub(super) fn measures(effects: &[f64], parts: usize) -> Option<[Estimate; 4]> {
-    let whole = quantities(effects.iter().copied())?;
+    let estimates = quantities(effects.iter().copied())?;
     let part = effects.len() / parts.max(1);
-    let without = |p: usize| {
-        quantities(effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied()).map(|list| list.to_vec())
-    };
-    let without: Option<Vec<Vec<f64>>> = (0..parts).map(without).collect();
-    jackknife(&whole, &without.unwrap_or_default()).try_into().ok()
+    let mut without_parts = Vec::with_capacity(parts);
+    for p in 0..parts {
+        let rest = effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied();
+        without_parts.extend(quantities(rest).map(|list| list.to_vec()));
+    }
+    if without_parts.len() < parts {
+        without_parts.clear();
+    }
+    jackknife(&estimates, &without_parts).try_into().ok()
 }
 
 /// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` for too few effects or overflow.

@@ -98,13 +98,12 @@ impl Study {
     /// # Errors
     /// [`BuildError`] if its outputs, by name and unit, differ from those of the study.
     pub fn with_model(self, model: Arc<dyn Model>, version: &str) -> Result<Self, BuildError> {
-        let words = |model: &dyn Model| {
+        let [outputs, expected] = [&model, &self.model()].map(|model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
             outputs.collect::<Vec<_>>().join(", ")
-        };
-        let (found, expected) = (words(&*model), words(&*self.model()));
-        if found != expected {
-            return rules::wrong("outputs", format!("those of the study, {expected}"), found);
+        });
+        if outputs != expected {
+            return rules::wrong("outputs", format!("those of the study, {expected}"), outputs);
         }
         let subject = CustomSubject { model, version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })

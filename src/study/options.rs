@@ -80,8 +80,10 @@ impl AnalysisOptions {
 
     /// Returns whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
-        let is_free = || space.copula().is_some() && self.members(space).len() <= FREE_SHAPLEY_FACTORS;
-        self.shapley.unwrap_or_else(is_free)
+        match self.shapley {
+            Some(shapley) => shapley,
+            None => space.copula().is_some() && self.members(space).len() <= FREE_SHAPLEY_FACTORS,
+        }
     }
 
     /// Returns what has indices of its own.
@@ -243,18 +245,18 @@ pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 /// if that takes more.
 pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
     const SHARE: u64 = 3;
-    let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
-    let least = runs_of(2);
-    if least > runs {
-        return Err(least);
+    let runs_of_a_point = replicates.saturating_mul(runs_per_point);
+    let min_runs = runs_of_a_point.saturating_mul(2);
+    if min_runs > runs {
+        return Err(min_runs);
     }
-    let most = if for_surrogates { runs / SHARE } else { runs };
-    let mut points = 2;
-    while runs_of(2 * points) <= most {
+    let max_runs = if for_surrogates { runs / SHARE } else { runs };
+    let mut points: u64 = 2;
+    while runs_of_a_point.saturating_mul(2 * points) <= max_runs {
         points *= 2;
     }
     let base_samples = points * replicates;
-    let plain = (runs - runs_of(points)) / base_samples;
+    let plain = (runs - runs_of_a_point * points) / base_samples;
     let plain = if for_surrogates { plain.min(u64::from(MAX_PLAIN_ROWS)) as u32 } else { 0 };
     Ok((base_samples, plain))
 }
@@ -273,12 +275,11 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     swaps.extend(analysis.dummy.then(Vec::new));
     if analysis.has_shapley(space) {
         let first = swaps.len();
-        let joined = |subset: Vec<usize>| {
+        for subset in proper_subsets(players.len()) {
             let mut factors: Swap = subset.into_iter().flat_map(|player| players[player].clone()).collect();
             factors.sort_unstable();
-            factors
-        };
-        swaps.extend(proper_subsets(players.len()).into_iter().map(joined));
+            swaps.push(factors);
+        }
         redrawn.extend(first..swaps.len());
     }
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());

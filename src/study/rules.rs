@@ -6,8 +6,8 @@ use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, rows, split};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
-use crate::model::{Model, OutputSeries};
-use crate::space::{Factor, Group, IndicesOf, Space};
+use crate::model::Model;
+use crate::space::{Factor, IndicesOf, Space};
 use crate::uncertainty::IntervalMethod;
 use apportion_base::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
 
@@ -39,11 +39,12 @@ pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
         }
     }
     let mut taken = BTreeSet::new();
-    let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs.len() || !taken.insert(place));
-    if let Some(series) = model.series().iter().find(is_wrong) {
+    for series in model.series() {
         let (name, places, count) = (&series.name, series.places(), outputs.len());
-        let expected = format!("{count}, and those of the series `{name}` must belong to no other series");
-        return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
+        if places.clone().any(|place| place >= count || !taken.insert(place)) {
+            let expected = format!("{count}, and those of the series `{name}` must belong to no other series");
+            return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
+        }
     }
     Ok(())
 }
@@ -133,10 +134,13 @@ pub(super) fn checked_options(
 fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
     let members = options.members(space);
     if options.indices_of == IndicesOf::Groups {
-        let is_taken = |group: &Group| space.factors().iter().any(|factor| factor.name == group.name);
-        let obstacle = match space.groups() {
-            groups if groups.is_empty() => "in a study without groups",
-            groups if groups.iter().any(is_taken) => "where a group has the name of a factor",
+        let groups = space.groups();
+        let names: BTreeSet<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
+        let obstacle = match () {
+            () if groups.is_empty() => "in a study without groups",
+            () if groups.iter().any(|group| names.contains(group.name.as_str())) => {
+                "where a group has the name of a factor"
+            }
             _ if space.noise().is_some() => "with [noise]",
             _ => "",
         };
@@ -232,9 +236,8 @@ impl Length {
         let for_surrogates = options.takes_surrogates(sampler, replicates, space);
         split(runs, one.rows_per_point(), replicates, for_surrogates).or_else(|least| {
             let expected = format!(
-                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use \
-                 random points: `apportion sample STUDY --random {}`, then `apportion given-data`)",
-                runs.max(10)
+                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use given \
+                 data at random points)"
             );
             wrong("runs", expected, runs)
         })

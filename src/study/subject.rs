@@ -97,17 +97,12 @@ pub struct LowFidelity {
 impl LowFidelity {
     /// Returns why it cannot be used with `model` on the factors of `space`; `None` if it can.
     pub(super) fn refused(&self, model: &dyn Model, space: &Space) -> Option<String> {
-        let low = self.subject.model(space);
-        let names = |model: &dyn Model| -> Vec<String> { model.outputs().iter().map(|o| o.name.to_string()).collect() };
-        let (own, wanted) = (names(&*low), names(model));
-        if own != wanted {
-            return Some(format!(
-                "its outputs are {}, and must be those of the model: {}",
-                own.join(", "),
-                wanted.join(", ")
-            ));
-        }
-        None
+        let low_fidelity = self.subject.model(space);
+        let [outputs, expected] = [&*low_fidelity, model].map(|model| {
+            let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+            names.join(", ")
+        });
+        (outputs != expected).then(|| format!("its outputs are {outputs}, and must be those of the model: {expected}"))
     }
 }
 

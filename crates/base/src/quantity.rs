@@ -57,24 +57,29 @@ impl Quantity {
 
 /// Returns the length in bytes of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
-    let digits = |from: usize| {
-        let rest = text.get(from..).unwrap_or_default();
-        from + rest.bytes().take_while(u8::is_ascii_digit).count()
-    };
-    let sign = |at: usize| usize::from(matches!(text.as_bytes().get(at), Some(b'+' | b'-')));
-    let mut end = digits(sign(0));
-    if text.as_bytes().get(end) == Some(&b'.') {
-        end = digits(end + 1);
+    let bytes = text.as_bytes();
+    let mut end = end_of_digits(bytes, end_of_sign(bytes, 0));
+    if bytes.get(end) == Some(&b'.') {
+        end = end_of_digits(bytes, end + 1);
     }
-    if matches!(text.as_bytes().get(end), Some(b'e' | b'E')) {
-        let start = end + 1 + sign(end + 1);
-        let stop = digits(start);
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let start = end_of_sign(bytes, end + 1);
+        let stop = end_of_digits(bytes, start);
         // "3 eV" and "2e" contain no exponent.
         if stop > start {
             end = stop;
         }
     }
     end
+}
+
+fn end_of_digits(bytes: &[u8], from: usize) -> usize {
+    let rest = bytes.get(from..).unwrap_or_default();
+    from + rest.iter().take_while(|byte| byte.is_ascii_digit()).count()
+}
+
+fn end_of_sign(bytes: &[u8], from: usize) -> usize {
+    from + usize::from(matches!(bytes.get(from), Some(b'+' | b'-')))
 }
 
 impl fmt::Display for Quantity {

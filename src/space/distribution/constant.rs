@@ -29,7 +29,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "constant",
     summary: "One value with certainty.",
-    ways: &[keys(&["value"])],
+    key_sets: &[keys(&["value"])],
     build: |given| Distribution::constant(given.number("value")?),
     ..PLAIN
 }];

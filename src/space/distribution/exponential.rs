@@ -41,7 +41,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "exponential",
     summary: "Waiting times between random events.",
-    ways: &[
+    key_sets: &[
         keys(&["scale"]).perhaps(&["location"]),
         solved_keys(&["mean"]).perhaps(&["location"]),
         MOMENTS,

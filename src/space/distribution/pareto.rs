@@ -45,7 +45,7 @@ impl Pareto {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "pareto",
     summary: "A power law above a smallest value.",
-    ways: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
     shape: Shape::Between(1e6, 2.0001, 500),
     make: |_, [_, min, shape]| Distribution::pareto(shape, min),
