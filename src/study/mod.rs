@@ -25,27 +25,17 @@ use crate::surrogate::fewest_points;
 use crate::uncertainty::{Layout, NoiseLayout};
 pub use apportion_base::names::nearest;
 
-/// A checked study: a subject, the space of its factors, and the design that explores it.
+/// A checked study: a subject, the space of its factors, and the design that explores it. Its methods describe its fields.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Name, by default the file's name without its ending. Result files are named after it.
     pub(crate) name: String,
-    /// Title for people.
     pub(crate) title: Option<String>,
-    /// The model with its choices.
     pub(crate) subject: Arc<dyn Subject>,
-    /// The factors.
     pub(crate) space: Space,
-    /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
-    /// [`Study::analysis`], and the dummy factor if there is one.
     pub(crate) design: Design,
-    /// What to estimate from the runs.
     pub(crate) analysis: AnalysisOptions,
-    /// When a growing run ends.
     pub(crate) target: Target,
-    /// Low-fidelity models of the same outputs.
     pub(crate) lows: Vec<LowFidelity>,
-    /// Where it is from.
     pub(crate) source: StudySource,
 }
 

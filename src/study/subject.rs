@@ -94,18 +94,6 @@ pub struct LowFidelity {
     pub base_samples: Option<u64>,
 }
 
-impl LowFidelity {
-    /// Returns why it cannot be used with `model` on the factors of `space`; `None` if it can.
-    pub(super) fn refused(&self, model: &dyn Model, space: &Space) -> Option<String> {
-        let low_fidelity = self.subject.model(space);
-        let [outputs, expected] = [&*low_fidelity, model].map(|model| {
-            let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-            names.join(", ")
-        });
-        (outputs != expected).then(|| format!("its outputs are {outputs}, and must be those of the model: {expected}"))
-    }
-}
-
 impl dyn Subject {
     /// Returns the subject as a `T`, if it is one.
     pub fn downcast_ref<T: Subject>(&self) -> Option<&T> {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::model::Worker;
 use crate::space::Distribution;
+use crate::space::Factor;
 use apportion_base::quantity::Unit;
 
 /// y = x0^3 / x1^2, and z = x2^2, which fails where x2 is above 0.8.

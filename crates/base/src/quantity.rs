@@ -57,29 +57,9 @@ impl Quantity {
 
 /// Returns the length in bytes of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let mut end = end_of_digits(bytes, end_of_sign(bytes, 0));
-    if bytes.get(end) == Some(&b'.') {
-        end = end_of_digits(bytes, end + 1);
-    }
-    if matches!(bytes.get(end), Some(b'e' | b'E')) {
-        let start = end_of_sign(bytes, end + 1);
-        let stop = end_of_digits(bytes, start);
-        // "3 eV" and "2e" contain no exponent.
-        if stop > start {
-            end = stop;
-        }
-    }
-    end
-}
-
-fn end_of_digits(bytes: &[u8], from: usize) -> usize {
-    let rest = bytes.get(from..).unwrap_or_default();
-    from + rest.iter().take_while(|byte| byte.is_ascii_digit()).count()
-}
-
-fn end_of_sign(bytes: &[u8], from: usize) -> usize {
-    from + usize::from(matches!(bytes.get(from), Some(b'+' | b'-')))
+    let max = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c)).unwrap_or(text.len());
+    // "3 eV" and "2e" contain no exponent.
+    (1..=max).rev().find(|length| text[..*length].parse::<f64>().is_ok()).unwrap_or(0)
 }
 
 impl fmt::Display for Quantity {

@@ -1,6 +1,5 @@
 //! The Poisson distribution.
 
-use std::fmt;
 use std::iter::successors;
 use std::sync::Arc;
 
@@ -17,7 +16,7 @@ pub struct Poisson {
 }
 
 /// The probabilities of all numbers that are not negligible.
-#[derive(PartialEq)]
+#[derive(Debug, PartialEq)]
 struct Table {
     first: f64,
     /// P(X <= k) of each.
@@ -26,13 +25,6 @@ struct Table {
     above: Vec<f64>,
     /// The index of the median.
     middle: usize,
-}
-
-// It follows from the mean.
-impl fmt::Debug for Table {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("..")
-    }
 }
 
 impl Distribution {

@@ -102,12 +102,7 @@ pub(super) fn lookup(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
 }
 
 fn single(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
-    if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
-        return Some(vec![(symbol, 0)]);
-    }
-    let (prefix, decade) = PREFIXES.into_iter().find(|(prefix, _)| name.starts_with(*prefix))?;
-    let rest = &name[prefix.len_utf8()..];
-    let symbol = SYMBOLS.iter().find(|symbol| symbol.name == rest && symbol.prefixes.contains(prefix))?;
+    let (_, symbol, decade) = spellings().find(|(spelling, ..)| spelling == name)?;
     Some(vec![(symbol, decade)])
 }
 

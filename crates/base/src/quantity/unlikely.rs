@@ -3,20 +3,9 @@
 use super::is_same;
 
 /// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
-const CODES: [f64; 12] = [
-    -999.0,
-    999.0,
-    -9999.0,
-    9999.0,
-    -99999.0,
-    99999.0,
-    -999999.0,
-    999999.0,
-    1e20,
-    -1e20,
-    9.969_209_968_386_869e36,
-    9.96921e36,
-];
+const CODES: [f64; 12] =
+    [-999.0, 999.0, -9999.0, 9999.0, -99999.0, 99999.0, -999999.0, 999999.0, 1e20, -1e20, 9.96921e36, DOUBLE_FILL];
+const DOUBLE_FILL: f64 = 9.969_209_968_386_869e36;
 
 /// Distance of an extreme value from all others, in their range, above which it is unlikely by itself.
 const FAR: f64 = 1e3;
