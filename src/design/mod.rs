@@ -20,9 +20,9 @@ mod sobol;
 
 use std::collections::BTreeSet;
 
-pub use base::BasePoints;
+pub(crate) use base::BasePoints;
 pub use error::DesignError;
-pub use joe_kuo::MAX_DIMENSIONS;
+use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
 use rows::Runs;
@@ -34,13 +34,13 @@ pub use sobol::SobolSequence;
 pub const MAX_POINTS: u64 = 1 << 32;
 
 /// Maximum number of replicates of a design.
-pub const MAX_REPLICATES: u64 = 4096;
+const MAX_REPLICATES: u64 = 4096;
 
 /// Maximum number of factors for second-order indices: their sums take d (d - 1) numbers for every output.
-pub const MAX_PAIRED_FACTORS: usize = 256;
+const MAX_PAIRED_FACTORS: usize = 256;
 
 /// Maximum number of plain rows of a base point.
-pub const MAX_PLAIN_ROWS: u32 = 1000;
+pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
 
 /// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
 /// 60 dimensions is correlated by more than 0.1.
@@ -78,9 +78,9 @@ impl Design {
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
     ///
     /// # Errors
-    /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
+    /// [`DesignError`] if there is no factor, no replicate or more than 4096, fewer than two or more than
     /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
-    /// does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or
+    /// does not exist, second-order indices without the rows BA or of more than 256 factors, or
     /// second-order indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
@@ -186,7 +186,7 @@ impl Design {
     }
 
     /// Returns the factor of a column.
-    pub fn factor_of(&self, column: usize) -> usize {
+    pub(crate) fn factor_of(&self, column: usize) -> usize {
         let mixed = self.runs.mixed.as_ref().and_then(|mixed| mixed.columns.get(column.checked_sub(mixed.first)?));
         mixed.map_or(column % self.factors, |mixed| mixed.factor)
     }
@@ -241,18 +241,18 @@ impl Design {
     }
 
     /// Returns whether the points of a replicate are complete nets: a power of two of them, or points that need none.
-    pub fn balanced(&self) -> bool {
+    pub(crate) fn balanced(&self) -> bool {
         !self.settings.sampler.is_digital() || self.points_per_replicate().is_power_of_two()
     }
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
-    pub fn replicate(&self, replicate: u64) -> BasePoints {
+    pub(crate) fn replicate(&self, replicate: u64) -> BasePoints {
         BasePoints::new(&self.settings, replicate, self.factors, &self.requested, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of
     /// several kinds has the first of them.
-    pub fn locate(&self, row: u64) -> (u64, u64, RowKind) {
+    pub(crate) fn locate(&self, row: u64) -> (u64, u64, RowKind) {
         let (base, run) = (row / self.rows_per_point(), row % self.rows_per_point());
         (base / self.points_per_replicate(), base % self.points_per_replicate(), self.runs.runs[run as usize].kind)
     }

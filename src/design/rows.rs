@@ -154,13 +154,8 @@ impl Unique {
         let mut columns = swap.clone();
         columns.sort_unstable();
         columns.dedup();
-        let mixed = match &mut self.mixed {
-            Some(mixed) => {
-                let firsts = [base, from].map(|matrix| self.factors * matrix.place());
-                mixed.of_row(&columns, redrawn, firsts[0], firsts[1])
-            }
-            None => Vec::new(),
-        };
+        let [first, other] = [base, from].map(|matrix| self.factors * matrix.place());
+        let mixed = self.mixed.as_mut().map(|mixed| mixed.of_row(&columns, redrawn, first, other)).unwrap_or_default();
         let key = (key(self.factors, base, &columns, from), mixed.clone());
         let number = *self.numbers.entry(key).or_insert(self.runs.len());
         if number == self.runs.len() {

@@ -17,7 +17,7 @@ impl RowFailure {
     }
 
     /// Returns the reason of an output that is infinite or NaN without an explanation.
-    pub fn not_finite() -> Self {
+    pub(crate) fn not_finite() -> Self {
         Self::new("the model returned a value that is not finite")
     }
 
@@ -144,7 +144,7 @@ impl Batch {
     }
 
     /// Copies the rows of a settled batch of the same model to row `first` and the following ones.
-    pub fn take_over(&mut self, first: usize, part: &Self) {
+    pub(crate) fn take_over(&mut self, first: usize, part: &Self) {
         for (mine, theirs) in self.columns.iter_mut().zip(&part.columns) {
             mine[first..first + part.rows].copy_from_slice(theirs);
         }
@@ -194,7 +194,7 @@ impl Batch {
     }
 
     /// Adds flags and counts of rows of this batch that were evaluated earlier.
-    pub fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
+    pub(crate) fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
         for (mine, theirs) in self.flags.iter_mut().zip(flags) {
             *mine += theirs;
         }

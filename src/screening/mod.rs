@@ -26,9 +26,7 @@ use points::Trajectories;
 use run::Outcome;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-pub use settings::{
-    MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
-};
+pub use settings::{MAX_LEVELS, MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
@@ -165,7 +163,7 @@ pub fn screen(
     context.messages().finish();
     let mut outputs = Vec::with_capacity(job.model.outputs().len());
     for (number, output) in job.model.outputs().iter().enumerate() {
-        let screened = screened_factors(output, number, &outcome, factors, parts as usize);
+        let screened = screened(output, number, &outcome, factors, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
         let unlikely = Unlikely::find(&values).map(|value| value.in_runs(value.first + 1));
         outputs.push(ScreenedOutput {
@@ -211,13 +209,7 @@ fn dropped_effects(factors: &[ScreenedFactor]) -> Option<String> {
 
 /// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
 /// within each trajectory, in `parts` independent parts.
-fn screened_factors(
-    output: &Output,
-    number: usize,
-    outcome: &Outcome,
-    space: &[Factor],
-    parts: usize,
-) -> Vec<ScreenedFactor> {
+fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
     let mut screened = Vec::with_capacity(space.len());
     for (j, factor) in space.iter().enumerate() {
         let effects = outcome.effects[number].iter().skip(j).step_by(space.len());

@@ -47,7 +47,7 @@ impl GaussianCopula {
     }
 
     /// Returns the number of factors.
-    pub fn factors(&self) -> usize {
+    pub(crate) fn factors(&self) -> usize {
         self.correlation.nrows()
     }
 
@@ -56,19 +56,14 @@ impl GaussianCopula {
         self.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
     }
 
-    /// Returns the correlation of the normal scores of two factors.
-    pub fn correlation(&self, i: usize, j: usize) -> f64 {
-        self.correlation[(i, j)]
-    }
-
     /// Returns the factors that are correlated with another one, in rising order.
-    pub fn dependent(&self) -> &[usize] {
+    pub(crate) fn dependent(&self) -> &[usize] {
         &self.dependent
     }
 
     /// Makes points of the unit cube, a column for each factor, whose coordinates are independent, dependent: the first
     /// of the dependent factors keeps its coordinates.
-    pub fn correlate(&self, columns: &mut [Vec<f64>]) {
+    pub(crate) fn correlate(&self, columns: &mut [Vec<f64>]) {
         let mut scores: Vec<Vec<f64>> = self.dependent.iter().map(|&factor| normal_scores(&columns[factor])).collect();
         for (row, &factor) in self.dependent.iter().enumerate().skip(1).rev() {
             let (before, scores) = scores.split_at_mut(row);
@@ -98,7 +93,7 @@ impl GaussianCopula {
     }
 
     /// Returns the coefficients in E(score of `of` | scores of `given`) = sum coefficient x score, in `given`'s order.
-    pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
+    pub(crate) fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
         // Only factors connected with it, directly or through others, have a coefficient.
         let mut tied = vec![of];
         let mut next = 0;

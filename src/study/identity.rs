@@ -20,20 +20,17 @@ impl Study {
         let constants: Map<String, Value> =
             self.constants().into_iter().map(|(name, value, unit)| (name, json!([value, unit]))).collect();
         let outputs: Vec<Value> =
-            self.model().outputs().iter().map(|o| json!({ "name": o.name, "unit": o.unit.to_string() })).collect();
-        let factors = self.space.factors();
-        let described: Vec<Value> = factors
-            .iter()
-            .map(|factor| {
-                let unit = factor.unit().to_string();
-                json!({ "name": factor.name, "unit": unit, "distribution": factor.distribution() })
-            })
-            .collect();
+            self.model().outputs().iter().map(|output| json!({ "name": output.name, "unit": output.unit })).collect();
+        let mut factors = Vec::with_capacity(self.space.factors().len());
+        for factor in self.space.factors() {
+            let (unit, distribution) = (factor.unit(), factor.distribution());
+            factors.push(json!({ "name": factor.name, "unit": unit, "distribution": distribution }));
+        }
         let design = &self.design;
         let DesignSettings { sampler, base_samples, replicates, seed } = *design.settings();
         let mut swaps = Vec::with_capacity(design.swaps().len());
         for swap in design.swaps() {
-            swaps.push(swap.iter().map(|k| factors[*k].name.as_str()).collect::<Vec<_>>().join("+"));
+            swaps.push(swap.iter().map(|k| &*self.space.factors()[*k].name).collect::<Vec<_>>().join("+"));
         }
         let mut points = json!({
             "sampler": sampler,
@@ -57,7 +54,7 @@ impl Study {
             "settings": settings,
             "constants": constants,
             "outputs": outputs,
-            "factors": described,
+            "factors": factors,
             "design": points,
         })
     }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 pub use build_error::BuildError;
 pub use builder::StudyBuilder;
-pub use options::{AnalysisOptions, MAX_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, SurrogateChoice, Target};
 use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
 use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};

@@ -29,8 +29,7 @@ pub struct AnalysisOptions {
     /// factors or groups. `None` estimates them for up to four if factors depend on each other.
     pub shapley: Option<bool>,
     /// Other measures to report in addition to Sobol' indices, from the first
-    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most
-    /// [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
+    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most 100 outputs.
     pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are estimated.
     pub aggregate: bool,
@@ -230,7 +229,7 @@ const FIRST_TRIAL_POINTS: u64 = 4;
 const FREE_SHAPLEY_FACTORS: usize = 4;
 
 /// Maximum number of outputs of a study with other measures: each takes about a second.
-pub const MAX_OUTPUTS_OF_MEASURES: usize = 100;
+pub(super) const MAX_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 

@@ -39,7 +39,7 @@ pub trait Named: Copy + 'static {
 pub const LONGEST_NAME: usize = 200;
 
 /// Maximum number of characters in a title.
-pub const LONGEST_TITLE: usize = 500;
+const LONGEST_TITLE: usize = 500;
 
 /// Maximum number of bytes in the name of a study: most systems allow 255 bytes in a file name, and endings are added.
 pub const LONGEST_STUDY_NAME: usize = 120;

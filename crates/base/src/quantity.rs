@@ -13,7 +13,7 @@ use std::fmt;
 pub use dimension::Dimension;
 pub use domain::Domain;
 pub use error::UnitError;
-pub use same::{SAME_VALUE, is_same};
+pub use same::is_same;
 pub use unit::Unit;
 pub use unlikely::Unlikely;
 

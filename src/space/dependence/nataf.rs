@@ -43,7 +43,7 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
     if stated == 0.0 || matches!((x, y), (Distribution::Normal(_), Distribution::Normal(_))) {
         return Ok(stated);
     }
-    let [x, y] = [x, y].map(Standardised::new);
+    let [x, y] = [x, y].map(|law| Standardised { distribution: law, mean: law.mean(), sd: law.sd() });
     let line = nodes(LINE);
     let [low, high] = [-1.0, 1.0].map(|sign| line.iter().map(|(z, w)| w * x.at(*z) * y.at(sign * z)).sum::<f64>());
     if !(low < stated && stated < high) {
@@ -82,11 +82,7 @@ struct Standardised<'a> {
     sd: f64,
 }
 
-impl<'a> Standardised<'a> {
-    fn new(distribution: &'a Distribution) -> Self {
-        Self { distribution, mean: distribution.mean(), sd: distribution.sd() }
-    }
-
+impl Standardised<'_> {
     fn at(&self, score: f64) -> f64 {
         (self.distribution.quantile(from_score(score)) - self.mean) / self.sd
     }

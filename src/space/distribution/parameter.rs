@@ -1,7 +1,7 @@
 //! The parameters of distributions, as in study files.
 
-use serde::Serialize;
-use serde::ser::{SerializeSeq, Serializer};
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 
 /// A parameter as in a study file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,14 +27,10 @@ pub enum Parameter {
 }
 
 fn bounds<S: Serializer>(min: &f64, max: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut list = serializer.serialize_seq(Some(2))?;
-    for bound in [min, max] {
-        match bound.is_finite() {
-            true => list.serialize_element(bound)?,
-            false => list.serialize_element(if *bound > 0.0 { "inf" } else { "-inf" })?,
-        }
-    }
-    list.end()
+    serializer.collect_seq([min, max].map(|bound| match bound.is_finite() {
+        true => Value::from(*bound),
+        false => Value::from(if *bound > 0.0 { "inf" } else { "-inf" }),
+    }))
 }
 
 impl From<f64> for Parameter {

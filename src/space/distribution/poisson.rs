@@ -69,7 +69,7 @@ impl Poisson {
     }
 
     /// Returns the same, except those that together are rarer than `rare` on either side.
-    pub fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
+    pub(crate) fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
         let table = &self.table;
         let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
         if last - first >= Self::MAX_LEVELS {

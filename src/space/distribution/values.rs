@@ -231,7 +231,7 @@ impl Values {
     }
 
     /// Returns the number of the most probable label, the first of several: the default nominal value.
-    pub fn most_probable(&self) -> f64 {
+    pub(super) fn most_probable(&self) -> f64 {
         let largest = self.categories().map(|(_, _, share)| share).fold(0.0, f64::max);
         self.categories().find(|(_, _, share)| *share == largest).map_or(f64::NAN, |(_, value, _)| value)
     }

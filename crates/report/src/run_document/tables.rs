@@ -1,6 +1,6 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult, SurrogateRecord};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval, NamedTerm};
 
