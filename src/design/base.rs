@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::mixed::MixedColumns;
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
-/// Plain rows have a random stream of their own, for every sampler: replicates count below 2^12, and the permutations
+/// Plain rows have a separate random stream, for every sampler: replicates count below 2^12, and the permutations
 /// of the hypercube have bit 63.
 const PLAIN_STREAM: u64 = 1 << 61;
 

@@ -104,7 +104,7 @@ impl Batch {
         self.columns[output][row] = value;
     }
 
-    /// Returns the column of one output, for models that fill it as a whole.
+    /// Returns the column of one output, for models that fill it at once.
     pub fn column_mut(&mut self, output: usize) -> &mut [f64] {
         &mut self.columns[output]
     }

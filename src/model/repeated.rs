@@ -69,7 +69,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs()
 }
 
-/// Returns the seed of repetition `number` of a row with this seed: the first is the row's own.
+/// Returns the seed of repetition `number` of a row with this seed: the first is that of the row.
 fn seed_of_repetition(seed: f64, number: u64) -> f64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     if number == 0 { seed } else { seed_of(mixed((seed as u64).wrapping_add(number.wrapping_mul(GOLDEN)))) }

@@ -1,4 +1,4 @@
-//! The Gaussian copula: factors whose normal scores are correlated, each with its own distribution.
+//! The Gaussian copula: factors whose normal scores are correlated, each with any distribution.
 
 use nalgebra::{DMatrix, DVector};
 

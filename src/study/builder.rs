@@ -166,7 +166,7 @@ impl StudyBuilder {
     }
 
     /// Adds a named low-fidelity model of the same outputs, used where it helps; the runs of the model correct it.
-    /// `base_samples` is the size of its own design; `None` to let the run choose.
+    /// `base_samples` is the size of its separate design; `None` to let the run choose.
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
         self.low_fidelities.push(LowFidelity { name: name.to_owned(), subject, base_samples });

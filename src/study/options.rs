@@ -23,7 +23,7 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, for which joint indices are estimated.
     pub subsets: Vec<Vec<usize>>,
-    /// What has indices of its own: the factors, or the groups in place of their factors.
+    /// What has indices: the factors, or the groups in place of their factors.
     pub indices_of: IndicesOf,
     /// Whether Shapley effects are estimated, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS)
     /// factors or groups. `None` estimates them for up to four if factors depend on each other.
@@ -85,7 +85,7 @@ impl AnalysisOptions {
         }
     }
 
-    /// Returns what has indices of its own.
+    /// Returns what has indices.
     pub(crate) fn members(&self, space: &Space) -> Vec<Group> {
         space.members(self.indices_of)
     }
@@ -124,7 +124,7 @@ impl AnalysisOptions {
 }
 
 named! {
-    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are exact, so
     /// that the runs only need to estimate the remainder ([`crate::surrogate`]).
     #[derive(Default)]
     pub enum SurrogateChoice {

@@ -27,7 +27,7 @@ pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildEr
     }
 }
 
-/// Checks that outputs have distinct names, and that every series has outputs of its own.
+/// Checks that outputs have distinct names, and that no two series share an output.
 pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let outputs = model.outputs();
     if outputs.is_empty() {
@@ -180,7 +180,7 @@ pub(super) fn check_dependent(
     }
 }
 
-/// Checks that low-fidelity models have names of their own and the outputs of `model`, and no size where the accuracy
+/// Checks that low-fidelity models have distinct names and the outputs of `model`, and no size where the accuracy
 /// determines it.
 pub(super) fn check_low_fidelities(
     low_fidelities: &[LowFidelity],

@@ -54,7 +54,7 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
         Vec::new()
     }
 
-    /// Returns the exact first-order and total indices of the factors of `space`, if they are known.
+    /// Returns the exact first-order and total indices of the factors of `space`, if there is a formula or a table of them.
     fn exact_indices(&self, _space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
         None
     }
@@ -90,7 +90,7 @@ pub struct LowFidelity {
     pub name: String,
     /// The model.
     pub subject: Arc<dyn Subject>,
-    /// Base samples of its own design; `None` to let the run choose.
+    /// Base samples of its separate design; `None` to let the run choose.
     pub base_samples: Option<u64>,
 }
 

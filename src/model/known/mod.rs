@@ -161,7 +161,7 @@ impl KnownFunction {
         if are_inside { (self.value)(x) } else { Err("an input is not positive") }
     }
 
-    /// Returns mean, variance and indices for independent inputs with their own distributions.
+    /// Returns mean, variance and indices for independent inputs with their distributions.
     pub fn exact(&self) -> Exact {
         Exact::clone(&self.exact)
     }

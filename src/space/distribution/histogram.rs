@@ -66,7 +66,7 @@ impl Distribution {
         Self::Histogram(Histogram { edges: edges.to_vec(), weights: weights.to_vec(), bins }).finite()
     }
 
-    /// Returns the histogram whose bins are between known quantiles: pairs of a probability and the value below which
+    /// Returns the histogram whose bins are between quantiles: pairs of a probability and the value below which
     /// this share of all values lies. The distribution function is linear between them.
     ///
     /// # Errors

@@ -49,7 +49,7 @@ impl Kind {
         self.0.summary
     }
 
-    /// Iterates over the arguments of its constructor in other languages: its own parameters.
+    /// Iterates over the arguments of its constructor in other languages: the parameters of its first set of keys.
     pub fn arguments(self) -> impl Iterator<Item = Argument> {
         let KeySet { needs, may, .. } = &self.0.key_sets[0];
         let needed = needs.iter().filter_map(move |key| self.argument(key, false));
@@ -67,7 +67,7 @@ impl Kind {
         self.0.takes()
     }
 
-    /// Returns the distribution that these parameters by key determine, as in a study file: its own parameters, or a
+    /// Returns the distribution that these parameters by key determine, as in a study file: its parameters, or a
     /// mean and a standard deviation, or two quantiles; truncated if `truncate` is given.
     ///
     /// Solved parameters are accurate to 1e-9 standard deviations.

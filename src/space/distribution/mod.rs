@@ -142,7 +142,7 @@ impl Distribution {
         self.family().quantile(u)
     }
 
-    /// Computes the quantiles of a whole column: `out[i] = quantile(u[i])`, with the same bits.
+    /// Computes the quantiles of a column: `out[i] = quantile(u[i])`, with the same bits.
     ///
     /// # Panics
     ///

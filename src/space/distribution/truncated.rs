@@ -20,9 +20,9 @@ pub struct Truncated {
     law: Box<Distribution>,
     min: f64,
     max: f64,
-    /// Probability of the whole distribution below `min`.
+    /// Probability below `min` before truncation.
     below: f64,
-    /// Probability of the whole distribution above `max`.
+    /// Probability above `max` before truncation.
     above: f64,
     /// Probability between the bounds.
     mass: f64,

@@ -118,7 +118,7 @@ fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     )
 }
 
-/// Returns the known spelling at most one edit away; a difference in case counts least.
+/// Returns the spelling at most one edit away; a difference in case counts least.
 pub(super) fn nearest(name: &str) -> Option<String> {
     let folded_name = name.to_lowercase();
     let mut candidates = Vec::new();

@@ -177,7 +177,7 @@ impl Unit {
         self.dimension
     }
 
-    /// Returns whether it is a label, not a known unit.
+    /// Returns whether it is a label, not a unit of physics.
     pub fn is_label(&self) -> bool {
         self.is_label
     }

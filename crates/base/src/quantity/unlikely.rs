@@ -29,7 +29,7 @@ pub struct Unlikely {
 }
 
 impl Unlikely {
-    /// Returns the smallest or largest of the finite `values`, if it is a known code and stands out or is repeated
+    /// Returns the smallest or largest of the finite `values`, if it is such a code and stands out or is repeated
     /// among values that differ, or if it is far from all others.
     pub fn find(values: &[f64]) -> Option<Self> {
         let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
