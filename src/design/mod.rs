@@ -20,7 +20,7 @@ mod sobol;
 
 use std::collections::BTreeSet;
 
-pub(crate) use base::BasePoints;
+pub use base::BasePoints;
 pub use error::DesignError;
 use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
@@ -246,7 +246,7 @@ impl Design {
     }
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
-    pub(crate) fn replicate(&self, replicate: u64) -> BasePoints {
+    pub fn replicate(&self, replicate: u64) -> BasePoints {
         BasePoints::new(&self.settings, replicate, self.factors, &self.requested, self.runs.mixed.clone())
     }
 

@@ -123,10 +123,6 @@ impl Family for Beta {
         )
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![
             ("alpha", self.alpha.into()),

@@ -47,10 +47,6 @@ impl Family for Constant {
         (self.value, 0.0)
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.value, self.value)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("value", self.value.into())]
     }

@@ -71,10 +71,6 @@ impl Family for Exponential {
         (self.location + self.scale, self.scale)
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("scale", self.scale.into()), ("location", self.location.into())]
     }

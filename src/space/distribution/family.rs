@@ -12,8 +12,9 @@ pub(super) trait Family {
     fn moments(&self) -> (f64, f64);
     fn parameters(&self) -> Vec<(&'static str, Parameter)>;
 
+    /// Returns the smallest closed interval that contains every value: by default the range of the quantiles.
     fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+        (self.quantile(0.0), self.quantile(1.0))
     }
 
     /// Returns its name in study files; `default` is that of its first entry.

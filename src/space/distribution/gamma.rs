@@ -80,10 +80,6 @@ impl Family for Gamma {
         (self.location + self.shape * self.scale, self.scale * self.shape.sqrt())
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
     }

@@ -83,10 +83,6 @@ impl Family for Integer {
         (self.min + (self.count - 1.0) / 2.0, ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt())
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max())
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("min", self.min.into()), ("max", self.max().into())]
     }

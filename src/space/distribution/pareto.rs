@@ -78,10 +78,6 @@ impl Family for Pareto {
         )
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.min, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("min", self.min.into())]
     }

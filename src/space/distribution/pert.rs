@@ -63,10 +63,6 @@ impl Family for Pert {
         (self.law.mean(), self.law.sd())
     }
 
-    fn support(&self) -> (f64, f64) {
-        self.law.support()
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let (min, max) = self.support();
         vec![("min", min.into()), ("mode", self.mode.into()), ("max", max.into())]

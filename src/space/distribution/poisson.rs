@@ -154,10 +154,6 @@ impl Family for Poisson {
         (self.mean, self.mean.sqrt())
     }
 
-    fn support(&self) -> (f64, f64) {
-        (0.0, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("mean", self.mean.into())]
     }

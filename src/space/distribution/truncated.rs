@@ -374,10 +374,6 @@ impl Family for Truncated {
         (self.mean, self.sd)
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let mut parameters = self.law.parameters();
         match self.quantiles {

@@ -333,10 +333,6 @@ impl Family for Values {
         (mean, self.expectation(|value| (value - mean) * (value - mean)).sqrt())
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.quantile(0.0), self.quantile(1.0))
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let mut parameters = Vec::new();
         match &self.origin {

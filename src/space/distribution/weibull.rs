@@ -74,10 +74,6 @@ impl Family for Weibull {
         (self.location + self.scale * libm::tgamma(1.0 + 1.0 / self.shape), self.scale * unit_sd(1.0 / self.shape))
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
     }
