@@ -161,6 +161,10 @@ impl Family for Histogram {
         (mean, variances.sum::<f64>().sqrt())
     }
 
+    fn support(&self) -> (f64, f64) {
+        (self.bins[0].min, self.bins[self.bins.len() - 1].max)
+    }
+
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("edges", self.edges.as_slice().into()), ("weights", self.weights.as_slice().into())]
     }

@@ -108,6 +108,10 @@ impl Family for LogNormal {
         })
     }
 
+    fn support(&self) -> (f64, f64) {
+        (0.0, f64::INFINITY)
+    }
+
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         match self.moments {
             Some((mean, sd)) => vec![("mean", mean.into()), ("sd", sd.into())],
