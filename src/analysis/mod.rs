@@ -28,3 +28,6 @@ pub use setup::{study_setup, validity};
 pub(crate) use stop::{StopReason, Stopped};
 pub(crate) use surrogates::{interval_options, surrogates};
 pub use unlikely::unlikely_outputs;
+
+/// Minimum number of outputs that have indices over all together, and an overview instead of pages for each.
+pub const MIN_OUTPUTS_TOGETHER: usize = 12;

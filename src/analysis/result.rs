@@ -4,6 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::MIN_OUTPUTS_TOGETHER;
 use super::finished_run::{FinishedRun, LowTotals};
 use super::measures::MeasuredRows;
 use super::output::{OutputRows, output_result};
@@ -14,7 +15,7 @@ use super::stop::Stopped;
 use super::surrogates::Corrections;
 use crate::effect::Effect;
 use crate::estimate::{FirstOrder, Scaling, Total};
-use crate::model::{EVALUATIONS, LARGEST_ERROR, MIN_OUTPUTS_TOGETHER, Model, RUNGS};
+use crate::model::{EVALUATIONS, LARGEST_ERROR, Model, RUNGS};
 use crate::result::{AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StoppingRecord, StudyResult};
 use crate::run::Totals;
 use crate::study::Study;

@@ -7,8 +7,8 @@ use crate::run::{Piece, Store};
 use crate::study::Study;
 use apportion_base::quantity::Unlikely;
 
-/// Returns for each output of `study` a sentence on the unlikely value among those in `store`, if there is one.
-pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
+/// Returns for each output of `study` the unlikely value among those in `store`, if there is one.
+pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<Unlikely>> {
     let design = &study.design;
     let rows = design.points_per_replicate() * design.rows_per_point();
     let pieces: Vec<Piece> =
@@ -17,8 +17,7 @@ pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
     let outputs = model.outputs();
     let of_output = |(number, output): (usize, &Output)| {
         let values = pieces.iter().flat_map(|piece| piece.values.iter().skip(number).step_by(outputs.len()));
-        let found = Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>())?;
-        Some(found.in_table(found.first + 1))
+        Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>())
     };
     outputs.iter().enumerate().map(of_output).collect()
 }

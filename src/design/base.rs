@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::mixed::MixedColumns;
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
-/// Plain rows have a random stream of their own, for every sampler: replicates count below 2^12, and the permutations
+/// Plain rows have a separate random stream, for every sampler: replicates count below 2^12, and the permutations
 /// of the hypercube have bit 63.
 const PLAIN_STREAM: u64 = 1 << 61;
 
@@ -38,17 +38,12 @@ impl BasePoints {
         rows: &Rows,
         mixed: Option<Arc<MixedColumns>>,
     ) -> Self {
-        let DesignSettings { sampler, seed, .. } = *settings;
         let plain_rows = rows.plain_rows as usize;
         let length = settings.base_samples / settings.replicates;
-        let of = |dimensions, length, stream| match sampler {
-            Sampler::Sobol => Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
-            Sampler::LatinHypercube => Points::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
-            Sampler::Random => Points::Random(RandomPoints::new(dimensions, seed, stream)),
-        };
-        let plain_points = || of(factors, length * plain_rows as u64, replicate | PLAIN_STREAM);
-        let plain = (plain_rows > 0).then(|| (plain_points(), plain_rows));
-        let points = of(2 * factors, length, replicate);
+        let points = Points::new(settings, 2 * factors, length, replicate);
+        let plain_length = length * plain_rows as u64;
+        let plain = (plain_rows > 0)
+            .then(|| (Points::new(settings, factors, plain_length, replicate | PLAIN_STREAM), plain_rows));
         Self { points, plain, factors, mixed }
     }
 
@@ -62,20 +57,32 @@ impl BasePoints {
     }
 
     fn fill_independent(&self, first: u64, columns: &mut [Vec<f64>]) {
-        let (own, plain) = columns.split_at_mut((2 * self.factors).min(columns.len()));
-        self.points.fill(first, own);
+        let (a_and_b, plain) = columns.split_at_mut((2 * self.factors).min(columns.len()));
+        self.points.fill(first, a_and_b);
         if let (Some((points, rows)), Some(length)) = (&self.plain, plain.first().map(Vec::len)) {
             let mut all = vec![vec![0.0; length * rows]; self.factors];
             points.fill(first * *rows as u64, &mut all);
             for (number, column) in plain.iter_mut().enumerate().take(self.factors * rows) {
                 let points = all[number % self.factors].iter().skip(number / self.factors).step_by(*rows);
-                column.iter_mut().zip(points).for_each(|(slot, u)| *slot = *u);
+                for (slot, u) in column.iter_mut().zip(points) {
+                    *slot = *u;
+                }
             }
         }
     }
 }
 
 impl Points {
+    /// Creates points of `dimensions` coordinates; `length` is the number of them, which a hypercube needs.
+    fn new(settings: &DesignSettings, dimensions: usize, length: u64, stream: u64) -> Self {
+        let seed = settings.seed;
+        match settings.sampler {
+            Sampler::Sobol => Self::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
+            Sampler::LatinHypercube => Self::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
+            Sampler::Random => Self::Random(RandomPoints::new(dimensions, seed, stream)),
+        }
+    }
+
     fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         match self {
             Self::Sobol(sequence) => {

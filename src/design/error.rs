@@ -58,7 +58,7 @@ pub enum DesignError {
     /// More model runs than can be counted.
     #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
     TooManyRuns {
-        /// The number requested, rounded up to whole replicates.
+        /// The number requested, rounded up to a multiple of the replicates.
         base_samples: u128,
         /// Model runs of each base sample.
         rows_per_point: u64,
@@ -92,7 +92,7 @@ pub enum DesignError {
         *factors as u128 * (*factors as u128 - 1) / 2
     )]
     TooManyPairs {
-        /// Number of factors with a swap of their own.
+        /// Number of factors with a swap.
         factors: usize,
     },
     /// Second-order indices of dependent factors.

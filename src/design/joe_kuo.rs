@@ -47,12 +47,12 @@ pub fn directions(dimensions: usize) -> &'static [Directions] {
 
 /// Reads direction numbers before bit reversal: the most significant bit of an entry has the value 1/2.
 fn from_line(line: &str) -> Directions {
-    let mut numbers = line.split(' ').map(|n| n.parse::<u32>().expect("the embedded table holds whole numbers"));
-    let mut next = || numbers.next().expect("the embedded table is complete");
-    let (_dimension, s, a) = (next(), next() as usize, next());
+    let numbers = line.split(' ').map(|n| n.parse::<u32>().expect("the embedded table holds whole numbers"));
+    let numbers: Vec<u32> = numbers.collect();
+    let (s, a, initial) = (numbers[1] as usize, numbers[2], &numbers[3..]);
     let mut v = [0; BITS];
-    for (k, entry) in v.iter_mut().enumerate().take(s) {
-        *entry = next() << (BITS - 1 - k);
+    for (k, number) in initial[..s].iter().enumerate() {
+        v[k] = number << (BITS - 1 - k);
     }
     for k in s..BITS {
         v[k] = v[k - s] ^ (v[k - s] >> s);

@@ -70,19 +70,25 @@ impl MixedColumns {
 
     /// Makes the columns of A and B dependent, `factors` each, and fills the mixed ones after all others.
     pub fn fill(&self, columns: &mut [Vec<f64>], factors: usize) {
-        let (own, mixed) = columns.split_at_mut(self.first.min(columns.len()));
-        own.chunks_mut(factors).take(2).for_each(|matrix| self.copula.correlate(matrix));
+        let (independent, mixed) = columns.split_at_mut(self.first.min(columns.len()));
+        for matrix in independent.chunks_mut(factors).take(2) {
+            self.copula.correlate(matrix);
+        }
         if mixed.is_empty() {
             return;
         }
-        let scores: Vec<Vec<f64>> = own.chunks(factors).take(2).flat_map(|matrix| self.copula.scores(matrix)).collect();
+        let scores: Vec<Vec<f64>> =
+            independent.chunks(factors).take(2).flat_map(|matrix| self.copula.scores(matrix)).collect();
         for (MixedColumn { start, terms, .. }, column) in self.columns.iter().zip(mixed) {
             column.copy_from_slice(&scores[*start]);
             for (coefficient, plus, less) in terms {
-                let difference = scores[*plus].iter().zip(&scores[*less]).map(|(plus, less)| plus - less);
-                column.iter_mut().zip(difference).for_each(|(score, difference)| *score += coefficient * difference);
+                for (score, (plus, less)) in column.iter_mut().zip(scores[*plus].iter().zip(&scores[*less])) {
+                    *score += coefficient * (plus - less);
+                }
             }
-            column.iter_mut().for_each(|score| *score = from_score(*score));
+            for score in column {
+                *score = from_score(*score);
+            }
         }
     }
 }

@@ -5,8 +5,8 @@
 //! sequences of d dimensions each would look similar, but the indices then never converge.) Every base point has `2 +
 //! k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B (Saltelli et
 //! al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns from A, are
-//! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at points of their
-//! own, are used to fit surrogates.
+//! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at separate points,
+//! are used to fit surrogates.
 
 mod base;
 mod error;
@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 
 pub use base::BasePoints;
 pub use error::DesignError;
-pub use joe_kuo::MAX_DIMENSIONS;
+use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
 use rows::Runs;
@@ -34,13 +34,13 @@ pub use sobol::SobolSequence;
 pub const MAX_POINTS: u64 = 1 << 32;
 
 /// Maximum number of replicates of a design.
-pub const MAX_REPLICATES: u64 = 4096;
+const MAX_REPLICATES: u64 = 4096;
 
 /// Maximum number of factors for second-order indices: their sums take d (d - 1) numbers for every output.
-pub const MAX_PAIRED_FACTORS: usize = 256;
+const MAX_PAIRED_FACTORS: usize = 256;
 
 /// Maximum number of plain rows of a base point.
-pub const MAX_PLAIN_ROWS: u32 = 1000;
+pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
 
 /// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
 /// 60 dimensions is correlated by more than 0.1.
@@ -66,7 +66,7 @@ pub const MAX_FACTORS: usize = 10_000;
 pub struct Design {
     settings: DesignSettings,
     factors: usize,
-    asked: Rows,
+    requested: Rows,
     runs: Runs,
     /// The swaps without a common column, whose pairs have second-order indices.
     disjoint: Vec<usize>,
@@ -78,9 +78,9 @@ impl Design {
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
     ///
     /// # Errors
-    /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
+    /// [`DesignError`] if there is no factor, no replicate or more than 4096, fewer than two or more than
     /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
-    /// does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or
+    /// does not exist, second-order indices without the rows BA or of more than 256 factors, or
     /// second-order indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
@@ -118,7 +118,7 @@ impl Design {
             return Err(DesignError::TooManyRuns { base_samples: all, rows_per_point });
         }
         settings.base_samples = points * replicates;
-        Ok(Self { settings, factors, asked: rows, runs, disjoint })
+        Ok(Self { settings, factors, requested: rows, runs, disjoint })
     }
 
     /// Returns the settings, with `base_samples` rounded up.
@@ -138,7 +138,7 @@ impl Design {
     /// [`DesignError`] if that is too many or too few.
     pub fn with_points(&self, points: u64) -> Result<Self, DesignError> {
         let base_samples = points.saturating_mul(self.settings.replicates);
-        Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.asked.clone())
+        Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.requested.clone())
     }
 
     /// Returns the longest design that a run of this one can grow into.
@@ -159,34 +159,34 @@ impl Design {
     }
 
     /// Returns the requested rows, including repetitions.
-    pub fn asked(&self) -> &Rows {
-        &self.asked
+    pub fn requested(&self) -> &Rows {
+        &self.requested
     }
 
     /// Returns the columns each AB_s takes from B.
     pub fn swaps(&self) -> &[Swap] {
-        &self.asked.swaps
+        &self.requested.swaps
     }
 
     /// Returns whether every AB_s has a row BA_s.
     pub fn has_ba(&self) -> bool {
-        self.asked.ba
+        self.requested.ba
     }
 
     /// Returns the swaps whose pairs have second-order indices: those that share no column with an earlier one. Empty if second-order indices were not requested.
     pub fn paired(&self) -> &[usize] {
-        if self.asked.second_order { &self.disjoint } else { &[] }
+        if self.requested.second_order { &self.disjoint } else { &[] }
     }
 
     /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
     /// of dependent factors that follow others.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-        self.factors * (2 + self.asked.plain_rows as usize) + mixed
+        self.factors * (2 + self.requested.plain_rows as usize) + mixed
     }
 
     /// Returns the factor of a column.
-    pub fn factor_of(&self, column: usize) -> usize {
+    pub(crate) fn factor_of(&self, column: usize) -> usize {
         let mixed = self.runs.mixed.as_ref().and_then(|mixed| mixed.columns.get(column.checked_sub(mixed.first)?));
         mixed.map_or(column % self.factors, |mixed| mixed.factor)
     }
@@ -202,7 +202,7 @@ impl Design {
 
     /// Returns whether factors depend on each other.
     pub fn is_dependent(&self) -> bool {
-        self.asked.copula.is_some()
+        self.requested.copula.is_some()
     }
 
     /// Returns the index of the first of the d columns of `matrix`.
@@ -212,7 +212,7 @@ impl Design {
 
     /// Returns the number of rows of every base point that are used only to fit surrogates.
     pub fn plain_rows(&self) -> u32 {
-        self.asked.plain_rows
+        self.requested.plain_rows
     }
 
     /// Returns the rows of one base point that are run, in the order in which rows are counted.
@@ -241,18 +241,18 @@ impl Design {
     }
 
     /// Returns whether the points of a replicate are complete nets: a power of two of them, or points that need none.
-    pub fn balanced(&self) -> bool {
+    pub(crate) fn balanced(&self) -> bool {
         !self.settings.sampler.is_digital() || self.points_per_replicate().is_power_of_two()
     }
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, &self.asked, self.runs.mixed.clone())
+        BasePoints::new(&self.settings, replicate, self.factors, &self.requested, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of
     /// several kinds has the first of them.
-    pub fn locate(&self, row: u64) -> (u64, u64, RowKind) {
+    pub(crate) fn locate(&self, row: u64) -> (u64, u64, RowKind) {
         let (base, run) = (row / self.rows_per_point(), row % self.rows_per_point());
         (base / self.points_per_replicate(), base % self.points_per_replicate(), self.runs.runs[run as usize].kind)
     }
@@ -282,9 +282,9 @@ impl Design {
             }
         }
         // The variance of a uniform number is 1/12.
-        let of_column = |column: &usize| 12.0 * sums[*column] / self.settings.base_samples as f64;
-        let largest = |swap: &Swap| swap.iter().map(of_column).max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        self.swaps().iter().map(|swap| largest(swap).unwrap_or(0.0)).collect()
+        let correlations: Vec<f64> = sums.iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect();
+        let of_swaps = self.swaps().iter().map(|swap| swap.iter().map(|column| correlations[*column]));
+        of_swaps.map(|swap| swap.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)).collect()
     }
 
     /// Writes row number `row` of the design as a point of the unit cube to `u`, which has one entry per factor.

@@ -19,7 +19,7 @@ pub struct Rows {
     pub ba: bool,
     /// Whether the sums for second-order indices are kept; needs the rows BA.
     pub second_order: bool,
-    /// Rows of every base point at points of their own, used only to fit surrogates ([`crate::surrogate`]).
+    /// Rows of every base point at separate points, used only to fit surrogates ([`crate::surrogate`]).
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
     pub copula: Option<Arc<GaussianCopula>>,
@@ -116,18 +116,12 @@ impl Runs {
         let numbers = [&a, &b].map(|run| (key(factors, run.base, &[], run.from), Vec::new()));
         let numbers = numbers.into_iter().zip(0..).collect();
         let mut unique = Unique { factors, runs: vec![a, b], numbers, mixed };
-        let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
-            let swaps = rows.swaps.iter().enumerate().filter(|_| asked);
-            let redrawn = |number: usize| rows.redrawn.contains(&number);
-            swaps.map(|(number, swap)| unique.swapped(kind(number), base, swap, redrawn(number), from)).collect()
-        };
-        let ab = series(true, RowKind::Ab, Matrix::A, Matrix::B);
-        let ba = series(rows.ba, RowKind::Ba, Matrix::B, Matrix::A);
-        let plain = |number| {
+        let ab = unique.all_swapped(rows, RowKind::Ab, Matrix::A, Matrix::B);
+        let ba = if rows.ba { unique.all_swapped(rows, RowKind::Ba, Matrix::B, Matrix::A) } else { Vec::new() };
+        for number in 0..rows.plain_rows {
             let matrix = Matrix::Plain(number);
-            Run::new(RowKind::Plain(number), matrix, Vec::new(), matrix)
-        };
-        unique.runs.extend((0..rows.plain_rows).map(plain));
+            unique.runs.push(Run::new(RowKind::Plain(number), matrix, Vec::new(), matrix));
+        }
         let Unique { runs, mixed, .. } = unique;
         Self { runs, ab, ba, mixed: mixed.map(Arc::new) }
     }
@@ -146,6 +140,12 @@ struct Unique {
 }
 
 impl Unique {
+    /// Returns the index of the run for each swap, in rows of `base` with columns from `from`.
+    fn all_swapped(&mut self, rows: &Rows, kind: fn(usize) -> RowKind, base: Matrix, from: Matrix) -> Vec<usize> {
+        let swaps = rows.swaps.iter().enumerate();
+        swaps.map(|(k, swap)| self.swapped(kind(k), base, swap, rows.redrawn.contains(&k), from)).collect()
+    }
+
     fn swapped(&mut self, kind: RowKind, base: Matrix, swap: &Swap, redrawn: bool, from: Matrix) -> usize {
         if swap.is_empty() {
             self.runs.push(Run::new(kind, base, Vec::new(), from));
@@ -154,9 +154,8 @@ impl Unique {
         let mut columns = swap.clone();
         columns.sort_unstable();
         columns.dedup();
-        let firsts = [base, from].map(|matrix| self.factors * matrix.place());
-        let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, firsts[0], firsts[1]);
-        let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
+        let [first, other] = [base, from].map(|matrix| self.factors * matrix.place());
+        let mixed = self.mixed.as_mut().map(|mixed| mixed.of_row(&columns, redrawn, first, other)).unwrap_or_default();
         let key = (key(self.factors, base, &columns, from), mixed.clone());
         let number = *self.numbers.entry(key).or_insert(self.runs.len());
         if number == self.runs.len() {

@@ -72,7 +72,9 @@ fn first_tile(directions: &Directions) -> [u32; TILE] {
     for (bit, direction) in directions.iter().enumerate().take(TILE.ilog2() as usize) {
         // Points with this bit of the Gray code follow in Gray-code order: the others backwards.
         let (before, after) = tile[..2 << bit].split_at_mut(1 << bit);
-        after.iter_mut().zip(before.iter().rev()).for_each(|(point, other)| *point = other ^ direction);
+        for (point, other) in after.iter_mut().zip(before.iter().rev()) {
+            *point = other ^ direction;
+        }
     }
     tile
 }

@@ -25,14 +25,14 @@ fn swapped_rows_are_a_with_the_named_columns_of_b() {
 /// The same points with rows BA of the same swaps.
 fn with_ba(sampler: Sampler) -> Design {
     let plain = design(sampler);
-    Design::new(plain.settings.clone(), 3, Rows { ba: true, second_order: true, ..plain.asked }).unwrap()
+    Design::new(plain.settings.clone(), 3, Rows { ba: true, second_order: true, ..plain.requested }).unwrap()
 }
 
 #[test]
 fn plain_rows_have_points_of_their_own_that_fill_the_cube_together() {
     for sampler in Sampler::ALL {
         for without in [design(sampler), with_ba(sampler)] {
-            let rows = Rows { plain_rows: 4, ..without.asked.clone() };
+            let rows = Rows { plain_rows: 4, ..without.requested.clone() };
             let design = Design::new(without.settings.clone(), 3, rows).unwrap();
             let (all, plain) = (design.rows_per_point(), without.rows_per_point());
             assert_eq!((all, design.columns()), (plain + 4, without.columns() + 4 * 3));

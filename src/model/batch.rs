@@ -17,7 +17,7 @@ impl RowFailure {
     }
 
     /// Returns the reason of an output that is infinite or NaN without an explanation.
-    pub fn not_finite() -> Self {
+    pub(crate) fn not_finite() -> Self {
         Self::new("the model returned a value that is not finite")
     }
 
@@ -104,7 +104,7 @@ impl Batch {
         self.columns[output][row] = value;
     }
 
-    /// Returns the column of one output, for models that fill it as a whole.
+    /// Returns the column of one output, for models that fill it at once.
     pub fn column_mut(&mut self, output: usize) -> &mut [f64] {
         &mut self.columns[output]
     }
@@ -144,7 +144,7 @@ impl Batch {
     }
 
     /// Copies the rows of a settled batch of the same model to row `first` and the following ones.
-    pub fn take_over(&mut self, first: usize, part: &Self) {
+    pub(crate) fn take_over(&mut self, first: usize, part: &Self) {
         for (mine, theirs) in self.columns.iter_mut().zip(&part.columns) {
             mine[first..first + part.rows].copy_from_slice(theirs);
         }
@@ -163,12 +163,9 @@ impl Batch {
             if column.iter().fold(true, |all, value| all & value.is_finite()) {
                 continue;
             }
-            for (row, value) in column.iter().enumerate() {
-                let is_named = || {
-                    let place = self.failures[..named].partition_point(|(o, r, _)| (*o, *r) < (output, row));
-                    matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row))
-                };
-                if !value.is_finite() && !is_named() {
+            for (row, _) in column.iter().enumerate().filter(|(_, value)| !value.is_finite()) {
+                let place = self.failures[..named].partition_point(|(o, r, _)| (*o, *r) < (output, row));
+                if !matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row)) {
                     self.failures.push((output, row, unnamed.clone()));
                 }
             }
@@ -197,8 +194,10 @@ impl Batch {
     }
 
     /// Adds flags and counts of rows of this batch that were evaluated earlier.
-    pub fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
-        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+    pub(crate) fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
+        for (mine, theirs) in self.flags.iter_mut().zip(flags) {
+            *mine += theirs;
+        }
         self.counts.merge(counts);
     }
 }

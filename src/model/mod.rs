@@ -30,9 +30,6 @@ pub use series::{MAX_SERIES_VALUES, OutputSeries, SeriesAxis, SeriesError, item_
 use crate::space::Distribution;
 use apportion_base::quantity::{Domain, Unit};
 
-/// Minimum number of outputs that are shown together: an overview instead of files for each.
-pub const MIN_OUTPUTS_TOGETHER: usize = 12;
-
 /// One output of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {

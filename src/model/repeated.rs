@@ -35,12 +35,11 @@ pub struct RepeatedModel {
 impl RepeatedModel {
     /// Repeats `model`, whose input number `seed` is its seed, `repetitions` times for each row, at least twice.
     pub fn new(model: Arc<dyn Model>, seed: usize, repetitions: usize) -> Self {
-        let of_output = |output: &Output| {
-            let mean = Output::new(format!("{}_mean", output.name), output.unit.clone(), "mean over the noise");
-            let variance = format!("{}_variance", output.name);
-            [mean, Output::new(variance, square(&output.unit), "variance over the noise")]
-        };
-        let outputs = model.outputs().iter().flat_map(of_output).collect();
+        let mut outputs = Vec::with_capacity(2 * model.outputs().len());
+        for Output { name, unit, .. } in model.outputs() {
+            outputs.push(Output::new(format!("{name}_mean"), unit.clone(), "mean over the noise"));
+            outputs.push(Output::new(format!("{name}_variance"), square(unit), "variance over the noise"));
+        }
         Self { model, outputs, seed, repetitions: repetitions.max(2) }
     }
 }
@@ -59,9 +58,9 @@ fn square(unit: &Unit) -> Unit {
             let below: String = parts.map(|part| format!("/{part}/{part}")).collect();
             let texts = one.into_iter().chain(above.map(|above| above + &below));
             let (zero, step) = (unit.to_si(0.0), unit.to_si(1.0));
-            let is_square = |square: &Unit| square.to_si(0.0) == zero && same(square.to_si(1.0), step * step);
-            let known = texts.filter_map(|text| Unit::known(&text)).find(is_square);
-            known.unwrap_or_else(|| Unit::label(&format!("({symbol})^2")))
+            let mut units = texts.filter_map(|text| Unit::known(&text));
+            let square = units.find(|unit| unit.to_si(0.0) == zero && same(unit.to_si(1.0), step * step));
+            square.unwrap_or_else(|| Unit::label(&format!("({symbol})^2")))
         }
     }
 }
@@ -70,7 +69,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs()
 }
 
-/// Returns the seed of repetition `number` of a row with this seed: the first is the row's own.
+/// Returns the seed of repetition `number` of a row with this seed: the first is that of the row.
 fn seed_of_repetition(seed: f64, number: u64) -> f64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     if number == 0 { seed } else { seed_of(mixed((seed as u64).wrapping_add(number.wrapping_mul(GOLDEN)))) }

@@ -47,12 +47,12 @@ impl SeriesAxis {
         if !(2..=MAX_SERIES_VALUES).contains(&found) {
             return Err(SeriesError::Length { found });
         }
-        let rises = |place: &usize| {
-            let before = if *place == 0 { f64::NEG_INFINITY } else { positions[place - 1] };
-            positions[*place].is_finite() && positions[*place] > before
-        };
-        if let Some(place) = (0..found).find(|place| !rises(place)) {
-            return Err(SeriesError::Position { place, found: positions[place] });
+        let mut before = f64::NEG_INFINITY;
+        for (place, &position) in positions.iter().enumerate() {
+            if !position.is_finite() || position <= before {
+                return Err(SeriesError::Position { place, found: position });
+            }
+            before = position;
         }
         Ok(Self { label: label.to_owned(), unit: unit.to_owned(), positions })
     }
@@ -114,33 +114,33 @@ impl OutputSeries {
 
     /// Returns those of `all` whose values are all in `chosen` and in order, with their places in `chosen`.
     pub fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
-        let place = |series: &Self| {
+        let series = all.iter().filter_map(|series| {
             let first = chosen.iter().position(|place| *place == series.first)?;
             let values = chosen.get(first..first + series.axis.positions.len())?;
             series.places().eq(values.iter().copied()).then(|| Self { first, ..series.clone() })
-        };
-        all.iter().filter_map(place).collect()
+        });
+        series.collect()
     }
 }
 
 /// Returns the list and the index in it for a name such as `infected[12]`.
 pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
     let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
-    let is_plain = !list.is_empty() && !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit());
-    let place: usize = place.parse().ok().filter(|_| is_plain)?;
+    let place = plain_number(place).filter(|_| !list.is_empty())?;
     Some((list, place))
+}
+
+/// Reads a number that consists of digits alone.
+fn plain_number(digits: &str) -> Option<usize> {
+    digits.bytes().all(|byte| byte.is_ascii_digit()).then(|| digits.parse().ok())?
 }
 
 /// Iterates over the names in a header such as `infected[0..365]`: those of the items from the first index to the
 /// second, exclusive. `None` for any other header, and for more than 10,000 items.
 pub fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
     let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
-    let number = |digits: &str| {
-        let is_plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-        digits.parse::<usize>().ok().filter(|_| is_plain)
-    };
     let (first, end) = range.split_once("..")?;
-    let (first, end) = (number(first)?, number(end)?);
+    let (first, end) = (plain_number(first)?, plain_number(end)?);
     let items = end.checked_sub(first)?;
     let is_list = !list.is_empty() && (1..=MAX_SERIES_VALUES).contains(&items);
     let list = list.to_owned();

@@ -82,7 +82,7 @@ impl DesignKey {
 
     /// Returns the design that differs from `like` in these fields.
     pub fn design(&self, like: &Design) -> Option<Design> {
-        let rows = Rows { plain_rows: self.plain_rows, ..like.asked().clone() };
+        let rows = Rows { plain_rows: self.plain_rows, ..like.requested().clone() };
         Design::new(self.settings.clone(), like.factors(), rows).ok()
     }
 }

@@ -76,7 +76,7 @@ impl Attempt<'_> {
         let study = self.runner.study;
         let settings = study.design.settings();
         let base_samples = points.saturating_mul(settings.replicates);
-        let rows = Rows { plain_rows, ..study.design.asked().clone() };
+        let rows = Rows { plain_rows, ..study.design.requested().clone() };
         let mut variant = study.clone();
         variant.design = Design::new(DesignSettings { base_samples, ..settings.clone() }, study.design.factors(), rows)
             .map_err(RunError::Design)?;

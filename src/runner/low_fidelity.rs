@@ -58,7 +58,7 @@ impl LowStudy {
             None => OWN_BASE_SAMPLES,
         };
         let own = DesignSettings { base_samples, seed: settings.seed ^ OWN_SEED, ..settings.clone() };
-        let rows = Rows { plain_rows: 0, ..study.design.asked().clone() };
+        let rows = Rows { plain_rows: 0, ..study.design.requested().clone() };
         let own = Design::new(own, study.design.factors(), rows).map_err(RunError::Design)?;
         let part = |design: Design, kind: &str| {
             let mut of_low = study.clone();

@@ -31,11 +31,9 @@ impl SalibLayout {
         }
     }
 
-    fn option(self) -> &'static str {
-        match self {
-            Self::FirstOrder => "--first-order-only",
-            Self::SecondOrder => "--second-order",
-        }
+    /// Returns the number of base points of a table, in words.
+    pub(super) fn points(self, rows: usize, d: usize) -> String {
+        format!("{} base points {}", rows / self.rows_per_point(d), self.words())
     }
 
     /// Describes row `row` of a base point.
@@ -52,42 +50,40 @@ impl SalibLayout {
 /// Inputs by name, a column each.
 pub type Inputs = [(String, Vec<f64>)];
 
-/// Returns the layout of `rows` rows for the indices of `members`: the one `asked` for, or the only one that fits the
-/// number of rows and the `inputs`, if they are known. Members have the indices of their inputs.
+/// Returns the layout of `rows` rows for the indices of `members`: the `stated` one, or the only one that fits the
+/// number of rows and the `inputs`, if these are given. Members have the indices of their inputs.
 ///
 /// # Errors
 /// [`SalibError`] if the rows fit none, or both.
 pub fn recognise(
     rows: usize,
     members: &[(String, Vec<usize>)],
-    asked: Option<SalibLayout>,
+    stated: Option<SalibLayout>,
     inputs: Option<&Inputs>,
 ) -> Result<SalibLayout, SalibError> {
     let d = members.len();
-    let candidates: Vec<SalibLayout> = asked.map_or(SalibLayout::ALL.to_vec(), |asked| vec![asked]);
-    let whole = |layout: &SalibLayout| rows > 0 && rows.is_multiple_of(layout.rows_per_point(d));
-    let possible: Vec<SalibLayout> = candidates.iter().copied().filter(whole).collect();
-    let fits = |layout| inputs.map_or(Ok(()), |inputs| check_points(inputs, members, layout));
-    let fitting: Vec<SalibLayout> = possible.iter().copied().filter(|layout| fits(*layout).is_ok()).collect();
-    match (&fitting[..], possible.first()) {
-        (_, None) => {
-            let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
-            let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
-            let there_are = format!("for {d} inputs or groups there are {expected}");
-            Err(SalibError(format!("{rows} rows are not a whole number of base points: {there_are}")))
+    let candidates = stated.map_or(SalibLayout::ALL.to_vec(), |layout| vec![layout]);
+    let (mut expected, mut fitting, mut misfit) = (Vec::new(), Vec::new(), None);
+    for layout in candidates {
+        expected.push(format!("{} rows each {}", layout.rows_per_point(d), layout.words()));
+        if rows == 0 || !rows.is_multiple_of(layout.rows_per_point(d)) {
+            continue;
         }
-        ([], Some(first)) => fits(*first).map(|()| *first),
-        ([layout], _) if rows == layout.rows_per_point(d) => {
-            Err(SalibError(format!("{rows} rows are a single base point: two or more are needed")))
+        match inputs.map_or(Ok(()), |inputs| check_points(inputs, members, layout)) {
+            Ok(()) => fitting.push(layout),
+            Err(error) => misfit = misfit.or(Some(error)),
         }
-        ([layout], _) => Ok(*layout),
-        _ => {
-            let words =
-                |layout: SalibLayout| format!("{} base points {}", rows / layout.rows_per_point(d), layout.words());
-            let ways = SalibLayout::ALL.map(words).join(" or ");
-            let options = SalibLayout::ALL.map(SalibLayout::option).join(" or ");
-            Err(SalibError(format!("{rows} rows can be read in two ways: {ways}: choose one by {options}")))
+    }
+    match fitting[..] {
+        [] => Err(misfit.unwrap_or_else(|| {
+            let there_are = format!("for {d} inputs or groups there are {}", expected.join(", "));
+            SalibError::Invalid(format!("{rows} rows are not a whole number of base points: {there_are}"))
+        })),
+        [layout] if rows == layout.rows_per_point(d) => {
+            Err(SalibError::Invalid(format!("{rows} rows are a single base point: two or more are needed")))
         }
+        [layout] => Ok(layout),
+        _ => Err(SalibError::Ambiguous { rows, members: d }),
     }
 }
 
@@ -103,11 +99,11 @@ fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: Salib
             let (base, other) = if number < d { (a, b) } else { (b, a) };
             for (place, (name, column)) in inputs.iter().enumerate() {
                 let source = if members[number % d].1.contains(&place) { other } else { base };
-                let (found, expected) = (column[row], column[source]);
-                if !is_same(found, expected) {
+                let (value, expected) = (column[row], column[source]);
+                if !is_same(value, expected) {
                     let (row, kind, layout) = (row + 1, layout.row_name(row - first, d), layout.words());
-                    return Err(SalibError(format!(
-                        "row {row} should be the row {kind} of its base point, {layout}, but its `{name}` is {found} instead of \
+                    return Err(SalibError::Invalid(format!(
+                        "row {row} should be the row {kind} of its base point, {layout}, but its `{name}` is {value} instead of \
                          {expected}: the rows are in another order, or the points are not those of SALib"
                     )));
                 }

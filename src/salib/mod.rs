@@ -17,5 +17,16 @@ use thiserror::Error;
 
 /// Why a table or a description is not SALib's, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct SalibError(String);
+pub enum SalibError {
+    /// The table or the description is invalid.
+    #[error("{0}")]
+    Invalid(String),
+    /// The number of rows fits both layouts: one must be chosen.
+    #[error("{rows} rows can be read in two ways: {}", SalibLayout::ALL.map(|layout| layout.points(*rows, *members)).join(" or "))]
+    Ambiguous {
+        /// The number of rows.
+        rows: usize,
+        /// The number of inputs or groups.
+        members: usize,
+    },
+}

@@ -20,10 +20,10 @@ impl SalibProblem {
     /// [`SalibError`] if there are no inputs, or two of one name.
     pub fn of_inputs(inputs: Vec<String>) -> Result<Self, SalibError> {
         if inputs.is_empty() {
-            return Err(SalibError("there are no inputs".to_owned()));
+            return Err(SalibError::Invalid("there are no inputs".to_owned()));
         }
         if let Some(k) = (1..inputs.len()).find(|&k| inputs[..k].contains(&inputs[k])) {
-            return Err(SalibError(format!("two inputs are called `{}`", inputs[k])));
+            return Err(SalibError::Invalid(format!("two inputs are called `{}`", inputs[k])));
         }
         let members = inputs.iter().enumerate().map(|(place, name)| (name.clone(), vec![place])).collect();
         Ok(Self { inputs, members })
@@ -51,13 +51,16 @@ impl SalibProblem {
             groups: Option<Vec<String>>,
         }
         let example = r#"{"num_vars": 2, "names": ["x1", "x2"]}"#;
-        let not_one = |error| SalibError(format!("not a problem of SALib in JSON, as in {example}: {error}"));
-        let Typed { num_vars, names, groups } = serde_json::from_str(text).map_err(not_one)?;
+        let Typed { num_vars, names, groups } = serde_json::from_str(text).map_err(|error| {
+            SalibError::Invalid(format!("not a problem of SALib in JSON, as in {example}: {error}"))
+        })?;
         let stated = num_vars.unwrap_or(names.len());
         let problem = Self::of_inputs(names)?;
-        let counts = [("names", Some(problem.inputs.len())), ("groups", groups.as_ref().map(Vec::len))];
-        if let Some((key, Some(found))) = counts.into_iter().find(|(_, found)| found.is_some_and(|n| n != stated)) {
-            return Err(SalibError(format!("`num_vars` is {stated}, but `{key}` has {found} entries")));
+        for (key, list) in [("names", Some(&problem.inputs)), ("groups", groups.as_ref())] {
+            if let Some(entries) = list.map(Vec::len).filter(|entries| *entries != stated) {
+                let problem = format!("`num_vars` is {stated}, but `{key}` has {entries} entries");
+                return Err(SalibError::Invalid(problem));
+            }
         }
         let Some(groups) = groups else { return Ok(problem) };
         let mut members: Vec<(String, Vec<usize>)> = Vec::new();

@@ -46,8 +46,9 @@ pub fn salib_study(
     let d = problem.members.len();
     let step = layout.rows_per_point(d);
     let rows = outputs.first().map_or(0, |output| output.values.len());
-    let output = |column: &Column| Output::new(column.name.clone(), Unit::dimensionless(), "read from a file");
-    let stated: Vec<Output> = outputs.iter().map(output).collect();
+    let columns = outputs.iter();
+    let stated: Vec<Output> =
+        columns.map(|column| Output::new(column.name.clone(), Unit::dimensionless(), "read from a file")).collect();
     let mut analysis = AnalysisOptions {
         second_order: layout == SalibLayout::SecondOrder,
         salib: true,
@@ -64,9 +65,9 @@ pub fn salib_study(
         .replicates(1)
         .seed(seed)
         .analysis(analysis);
-    // Any distribution works: the outputs are known, and no point is ever computed.
-    let any = || Distribution::uniform(0.0, 1.0).expect("0 is below 1");
-    let builder = problem.members.iter().fold(builder, |builder, (member, _)| builder.factor(member, any()));
+    // Any distribution works: the outputs are given, and no point is ever computed.
+    let any = Distribution::uniform(0.0, 1.0).expect("0 is below 1");
+    let builder = problem.members.iter().fold(builder, |builder, (member, _)| builder.factor(member, any.clone()));
     let mut study = builder.build()?;
     study.title = Some("Points made by SALib".to_owned());
     study.subject = Arc::new(ExternalSubject { outputs: stated, series: Vec::new() });
@@ -90,11 +91,11 @@ pub fn salib_study(
 
 /// Returns for each row of a base point of `design` the index of SALib's row.
 fn places(design: &Design, layout: SalibLayout, d: usize) -> Vec<usize> {
-    let place = |kind: RowKind| match kind {
+    let places = design.runs().iter().map(|run| match run.kind {
         RowKind::A => 0,
         RowKind::Ab(swap) => 1 + swap,
         RowKind::Ba(swap) => 1 + d + swap,
         _ => layout.rows_per_point(d) - 1,
-    };
-    design.runs().iter().map(|run| place(run.kind)).collect()
+    });
+    places.collect()
 }

@@ -28,7 +28,7 @@ impl Reading {
     pub const ALL: [Self; 4] = [Self::Linear, Self::Monotone, Self::AlmostMonotone, Self::NonLinearOrInteracting];
 
     /// Returns the reading of a ratio sigma / mu*.
-    pub fn from_ratio(ratio: f64) -> Self {
+    pub(super) fn from_ratio(ratio: f64) -> Self {
         match ratio {
             r if r < 0.1 => Self::Linear,
             r if r < 0.5 => Self::Monotone,
@@ -56,13 +56,11 @@ impl Reading {
 /// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
 /// mean if no effect is missing; there is none if leaving out a part leaves too few effects.
 pub(super) fn measures(effects: &[f64], parts: usize) -> Option<[Estimate; 4]> {
-    let whole = quantities(effects.iter().copied())?;
+    let estimates = quantities(effects.iter().copied())?;
     let part = effects.len() / parts.max(1);
-    let without = |p: usize| {
-        quantities(effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied()).map(|list| list.to_vec())
-    };
-    let without: Option<Vec<Vec<f64>>> = (0..parts).map(without).collect();
-    jackknife(&whole, &without.unwrap_or_default()).try_into().ok()
+    let rests = (0..parts).map(|p| effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied());
+    let without_parts: Option<Vec<_>> = rests.map(|rest| Some(quantities(rest)?.to_vec())).collect();
+    jackknife(&estimates, &without_parts.unwrap_or_default()).try_into().ok()
 }
 
 /// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` for too few effects or overflow.

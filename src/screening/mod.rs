@@ -26,9 +26,7 @@ use points::Trajectories;
 use run::Outcome;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-pub use settings::{
-    MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
-};
+pub use settings::{MAX_LEVELS, MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
@@ -163,33 +161,38 @@ pub fn screen(
     let points = Trajectories::new(job.space, &settings, parts)?;
     let outcome = run::run(job, &points, settings.trajectories, threads, context, on_progress)?;
     context.messages().finish();
-    let failures = |number: usize| {
-        let of_output = outcome.failures.iter().filter(move |((output, _), _)| *output == number);
-        of_output.map(|((_, reason), (runs, first))| {
-            let first: Vec<f64> = first.iter().zip(factors).map(|(x, factor)| factor.unit().from_si(*x)).collect();
-            ScreeningFailure { reason: reason.to_string(), runs: *runs, first_inputs: named_inputs(job.space, &first) }
-        })
-    };
-    let outputs = job.model.outputs().iter().enumerate().map(|(number, output)| {
+    let mut outputs = Vec::with_capacity(job.model.outputs().len());
+    for (number, output) in job.model.outputs().iter().enumerate() {
         let screened = screened(output, number, &outcome, factors, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
-        let unlikely = Unlikely::find(&values).map(|found| found.in_runs(found.first + 1));
-        ScreenedOutput {
+        let unlikely = Unlikely::find(&values).map(|value| value.in_runs(value.first + 1));
+        outputs.push(ScreenedOutput {
             name: output.name.to_string(),
             unit: output.unit.to_string(),
             warnings: unlikely.into_iter().chain(dropped_effects(&screened)).collect(),
             factors: screened,
-            failures: failures(number).collect(),
-        }
-    });
+            failures: failures(number, &outcome, job.space),
+        });
+    }
     Ok(Screening {
         settings,
         parts,
         runs: settings.trajectories * (factors.len() as u64 + 1),
         failed: outcome.failed,
-        outputs: outputs.collect(),
+        outputs,
         flags: outcome.flags,
     })
+}
+
+/// Returns why runs failed in output number `number`.
+fn failures(number: usize, outcome: &Outcome, space: &Space) -> Vec<ScreeningFailure> {
+    let mut failures = Vec::new();
+    for ((_, reason), (runs, first)) in outcome.failures.iter().filter(|((output, _), _)| *output == number) {
+        let first = first.iter().zip(space.factors()).map(|(x, factor)| factor.unit().from_si(*x));
+        let first_inputs = named_inputs(space, &first.collect::<Vec<f64>>());
+        failures.push(ScreeningFailure { reason: reason.to_string(), runs: *runs, first_inputs });
+    }
+    failures
 }
 
 /// Warns of the dropped effects of an output, if there are any.
@@ -207,15 +210,15 @@ fn dropped_effects(factors: &[ScreenedFactor]) -> Option<String> {
 /// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
 /// within each trajectory, in `parts` independent parts.
 fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
-    let factors = space.len();
-    let of_factor = |(j, factor): (usize, &Factor)| {
-        let effects = outcome.effects[number].iter().skip(j).step_by(factors);
-        let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
-        let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
-        let measures = measures::measures(&own, parts);
+    let mut screened = Vec::with_capacity(space.len());
+    for (j, factor) in space.iter().enumerate() {
+        let effects = outcome.effects[number].iter().skip(j).step_by(space.len());
+        let effects: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
+        let finite = effects.iter().filter(|effect| effect.is_finite()).count() as u64;
+        let measures = measures::measures(&effects, parts);
         let [mu, mu_star, sigma, ratio] = std::array::from_fn(|place| measures.map(|measures| measures[place]));
         let ratio = ratio.filter(|ratio: &Estimate| ratio.estimate.is_finite());
-        ScreenedFactor {
+        screened.push(ScreenedFactor {
             factor: factor.name.clone(),
             rank: 0,
             mu_star,
@@ -224,16 +227,16 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
             ratio,
             reading: ratio.map(|ratio| Reading::from_ratio(ratio.estimate)),
             could_be_fixed: None,
-            effects,
-            dropped: own.len() as u64 - effects,
+            effects: finite,
+            dropped: effects.len() as u64 - finite,
             idle_steps: outcome.idle[j],
-        }
-    };
-    let mut screened: Vec<ScreenedFactor> = space.iter().enumerate().map(of_factor).collect();
-    let size = |factor: &ScreenedFactor| factor.mu_star.map_or(f64::NEG_INFINITY, |mu_star| mu_star.estimate);
-    let mut order: Vec<usize> = (0..factors).collect();
-    order.sort_by(|&i, &j| size(&screened[j]).total_cmp(&size(&screened[i])));
-    let largest = order.first().map_or(0.0, |&first| size(&screened[first]));
+        });
+    }
+    let sizes: Vec<f64> =
+        screened.iter().map(|factor| factor.mu_star.map_or(f64::NEG_INFINITY, |mu_star| mu_star.estimate)).collect();
+    let mut order: Vec<usize> = (0..space.len()).collect();
+    order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));
+    let largest = order.first().map_or(0.0, |&first| sizes[first]);
     for (place, &j) in order.iter().enumerate() {
         screened[j].rank = place + 1;
     }

@@ -110,7 +110,8 @@ impl Trajectories {
         let factors = self.grids.len();
         let mut columns = vec![vec![0.0]; 2 * factors];
         points.fill(index, &mut columns);
-        let place = |(j, grid): (usize, &Grid)| {
+        let mut moves = Vec::with_capacity(factors);
+        for (j, grid) in self.grids.iter().enumerate() {
             let (a, b) = (columns[j][0], columns[factors + j][0]);
             let (u, step) = match grid {
                 Grid::Continuous => {
@@ -122,9 +123,9 @@ impl Trajectories {
                 // Only walks have grids.
                 Grid::Levels(levels) => between(levels, 0, levels.len() - 1),
             };
-            Move { u, step, rows: [0, j + 1] }
-        };
-        self.grids.iter().enumerate().map(place).collect()
+            moves.push(Move { u, step, rows: [0, j + 1] });
+        }
+        moves
     }
 
     /// Generates one of Morris's walks. All levels of a grid are equally likely to be the first, as are all orders of
@@ -137,7 +138,8 @@ impl Trajectories {
         for last in (1..position.len()).rev() {
             position.swap(last, rng.random_range(0..=last));
         }
-        let place = |(grid, row): (&Grid, usize)| {
+        let mut moves = Vec::with_capacity(self.grids.len());
+        for (grid, row) in self.grids.iter().zip(position) {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is irrelevant.
                 Grid::Continuous => ([0.5, 0.5], 1.0),
@@ -152,9 +154,9 @@ impl Trajectories {
                     between(levels, from, if up { from + stride } else { from - stride })
                 }
             };
-            Move { u, step, rows: [row, row + 1] }
-        };
-        self.grids.iter().zip(position).map(place).collect()
+            moves.push(Move { u, step, rows: [row, row + 1] });
+        }
+        moves
     }
 }
 
@@ -165,17 +167,21 @@ fn between(levels: &[f64], from: usize, to: usize) -> ([f64; 2], f64) {
 
 /// Returns two different levels, drawn by their probabilities: at the quantile `a`, and at `b` among the others.
 fn two_levels(levels: &[Level], a: f64, b: f64) -> ([f64; 2], f64) {
-    let at = |u: f64| levels.partition_point(|level| level.low <= u).saturating_sub(1);
-    let from = at(a);
+    let from = level_at(levels, a);
     let Level { low, .. } = levels[from];
     let rest = b * (1.0 - levels[from].width());
-    let mut to = at(if rest < low { rest } else { rest + levels[from].width() });
+    let mut to = level_at(levels, if rest < low { rest } else { rest + levels[from].width() });
     // Rounding may lead back to the start or the end of the first level.
     if to == from {
         to = if from + 1 < levels.len() { from + 1 } else { from - 1 };
     }
     let step = (to as f64 - from as f64) / (levels.len() - 1) as f64;
     ([levels[from].middle, levels[to].middle], step)
+}
+
+/// Returns the index of the level whose part of the unit interval contains `u`.
+fn level_at(levels: &[Level], u: f64) -> usize {
+    levels.partition_point(|level| level.low <= u).saturating_sub(1)
 }
 
 /// Returns the coordinate half a range further on, modulo 1.
@@ -188,15 +194,15 @@ impl Grid {
         if factor.distribution().is_noise() {
             return Self::Seeds;
         }
-        if let Some(levels) = factor.distribution().levels() {
+        if let Some(values) = factor.distribution().levels() {
             let mut low = 0.0;
-            // Each ends as far above its middle as it begins below.
-            let level = |(_, middle): &(f64, f64)| {
-                let level = Level { low, middle: *middle };
+            let mut levels = Vec::with_capacity(values.len());
+            for (_, middle) in values {
+                let level = Level { low, middle };
+                // Each ends as far above its middle as it begins below.
                 low += level.width();
-                level
-            };
-            let levels: Vec<Level> = levels.iter().map(level).collect();
+                levels.push(level);
+            }
             return if levels.len() < 2 { Self::Continuous } else { Self::Discrete(levels) };
         }
         match (factor.distribution(), design) {
@@ -205,8 +211,8 @@ impl Grid {
                 let (low, high) = distribution.support();
                 let from = if low.is_finite() { 0.0 } else { TAIL };
                 let to = if high.is_finite() { 1.0 } else { 1.0 - TAIL };
-                let part = |k: u32| f64::from(k) / f64::from(levels - 1);
-                Self::Levels((0..levels).map(|k| from * (1.0 - part(k)) + to * part(k)).collect())
+                let parts = (0..levels).map(|k| f64::from(k) / f64::from(levels - 1));
+                Self::Levels(parts.map(|part| from * (1.0 - part) + to * part).collect())
             }
         }
     }

@@ -106,8 +106,8 @@ impl Outcome {
     /// Records the failures and flags of a settled batch.
     fn note(&mut self, batch: &Batch, inputs: &[&[f64]]) {
         for (output, row, reason) in batch.failures() {
-            let values = || inputs.iter().map(|column| column[*row]).collect();
-            self.failures.entry((*output, reason.clone())).or_insert_with(|| (0, values())).0 += 1;
+            let entry = self.failures.entry((*output, reason.clone()));
+            entry.or_insert_with(|| (0, inputs.iter().map(|column| column[*row]).collect())).0 += 1;
         }
         self.failed += failed_rows(batch);
         for (sum, raised) in self.flags.iter_mut().zip(batch.flags()) {

@@ -7,9 +7,9 @@ use crate::design::{DesignError, Sampler};
 use crate::run::RunError;
 
 /// Minimum number of trajectories: with fewer there is no meaningful spread.
-pub const MIN_TRAJECTORIES: u64 = 4;
+const MIN_TRAJECTORIES: u64 = 4;
 /// Maximum number of model runs of a screening: its effects are kept in memory, 8 bytes each.
-pub const MAX_RUNS: u64 = 1 << 27;
+const MAX_RUNS: u64 = 1 << 27;
 /// Maximum number of levels of the trajectory design's grid.
 pub const MAX_LEVELS: u32 = 1000;
 /// Shortest step of the radial design, as a part of the factor's range.

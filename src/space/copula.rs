@@ -1,4 +1,4 @@
-//! The Gaussian copula: factors whose normal scores are correlated, each with its own distribution.
+//! The Gaussian copula: factors whose normal scores are correlated, each with any distribution.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -32,8 +32,8 @@ impl GaussianCopula {
     /// the nearest valid matrix, rounded to four digits, as an error if it is not positive definite.
     pub(crate) fn new(correlation: DMatrix<f64>) -> Result<Self, DMatrix<f64>> {
         let factors = correlation.nrows();
-        let is_dependent = |i: &usize| (0..factors).any(|j| j != *i && correlation[(*i, j)] != 0.0);
-        let dependent: Vec<usize> = (0..factors).filter(is_dependent).collect();
+        let dependent: Vec<usize> =
+            (0..factors).filter(|&i| (0..factors).any(|j| j != i && correlation[(i, j)] != 0.0)).collect();
         let among = part(&correlation, &dependent, &dependent);
         if dependent.is_empty() {
             return Ok(Self { correlation, dependent, lower: among });
@@ -47,33 +47,39 @@ impl GaussianCopula {
     }
 
     /// Returns the number of factors.
-    pub fn factors(&self) -> usize {
+    pub(crate) fn factors(&self) -> usize {
         self.correlation.nrows()
     }
 
-    /// Returns the correlation of the normal scores of two factors.
-    pub fn correlation(&self, i: usize, j: usize) -> f64 {
-        self.correlation[(i, j)]
+    /// Returns the correlation matrix of the normal scores, row by row.
+    pub(crate) fn rows(&self) -> Vec<Vec<f64>> {
+        self.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
     }
 
     /// Returns the factors that are correlated with another one, in rising order.
-    pub fn dependent(&self) -> &[usize] {
+    pub(crate) fn dependent(&self) -> &[usize] {
         &self.dependent
     }
 
     /// Makes points of the unit cube, a column for each factor, whose coordinates are independent, dependent: the first
     /// of the dependent factors keeps its coordinates.
-    pub fn correlate(&self, columns: &mut [Vec<f64>]) {
+    pub(crate) fn correlate(&self, columns: &mut [Vec<f64>]) {
         let mut scores: Vec<Vec<f64>> = self.dependent.iter().map(|&factor| normal_scores(&columns[factor])).collect();
         for (row, &factor) in self.dependent.iter().enumerate().skip(1).rev() {
-            let (before, own) = scores.split_at_mut(row);
-            let own = &mut own[0];
-            own.iter_mut().for_each(|score| *score *= self.lower[(row, row)]);
+            let (before, scores) = scores.split_at_mut(row);
+            let scores = &mut scores[0];
+            for score in scores.iter_mut() {
+                *score *= self.lower[(row, row)];
+            }
             for (column, other) in before.iter().enumerate().filter(|(column, _)| self.lower[(row, *column)] != 0.0) {
                 let weight = self.lower[(row, column)];
-                own.iter_mut().zip(other).for_each(|(score, other)| *score += weight * other);
+                for (score, other) in scores.iter_mut().zip(other) {
+                    *score += weight * other;
+                }
             }
-            columns[factor].iter_mut().zip(&*own).for_each(|(u, score)| *u = from_score(*score));
+            for (u, score) in columns[factor].iter_mut().zip(scores) {
+                *u = from_score(*score);
+            }
         }
     }
 
@@ -87,7 +93,7 @@ impl GaussianCopula {
     }
 
     /// Returns the coefficients in E(score of `of` | scores of `given`) = sum coefficient x score, in `given`'s order.
-    pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
+    pub(crate) fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
         // Only factors connected with it, directly or through others, have a coefficient.
         let mut tied = vec![of];
         let mut next = 0;
@@ -102,11 +108,14 @@ impl GaussianCopula {
         let covariances = DVector::from_iterator(tied.len(), tied.iter().map(|&j| self.correlation[(of, j)]));
         // A principal part of a positive definite matrix is positive definite.
         let solved = part(&self.correlation, &tied, &tied).cholesky().map(|cholesky| cholesky.solve(&covariances));
-        let coefficient = |j: &usize| {
-            let place = tied.iter().position(|other| other == j)?;
-            solved.as_ref().map(|solved| solved[place])
-        };
-        given.iter().map(|j| coefficient(j).unwrap_or(0.0)).collect()
+        let mut coefficients = vec![0.0; given.len()];
+        if let Some(solved) = solved {
+            for (&factor, coefficient) in tied.iter().zip(&solved) {
+                let place = given.iter().position(|&other| other == factor);
+                place.into_iter().for_each(|place| coefficients[place] = *coefficient);
+            }
+        }
+        coefficients
     }
 }
 
@@ -129,16 +138,11 @@ fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64
 fn nearest_correlation(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     const STEPS: usize = 500;
     let n = matrix.nrows();
-    let at_least = |matrix: DMatrix<f64>, least: f64| {
-        let mut eigen = matrix.symmetric_eigen();
-        eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(least));
-        eigen.recompose()
-    };
     let mut nearest = matrix.clone();
     let mut correction = DMatrix::zeros(n, n);
     for _ in 0..STEPS {
         let shifted = &nearest - &correction;
-        let positive = at_least(shifted.clone(), 0.0);
+        let positive = with_min_eigenvalue(shifted.clone(), 0.0);
         correction = &positive - shifted;
         let mut next = positive;
         next.fill_diagonal(1.0);
@@ -148,12 +152,20 @@ fn nearest_correlation(matrix: &DMatrix<f64>) -> DMatrix<f64> {
             break;
         }
     }
-    let mut safe = at_least(nearest, PROPOSED_EIGENVALUE * n as f64);
+    let mut safe = with_min_eigenvalue(nearest, PROPOSED_EIGENVALUE * n as f64);
     let scale: Vec<f64> = (0..n).map(|i| safe[(i, i)].sqrt()).collect();
     for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
         safe[(i, j)] = (safe[(i, j)] / (scale[i] * scale[j]) * 1e4).round() / 1e4;
     }
     safe
+}
+
+fn with_min_eigenvalue(matrix: DMatrix<f64>, min: f64) -> DMatrix<f64> {
+    let mut eigen = matrix.symmetric_eigen();
+    for value in eigen.eigenvalues.iter_mut() {
+        *value = value.max(min);
+    }
+    eigen.recompose()
 }
 
 #[cfg(test)]

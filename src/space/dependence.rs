@@ -74,16 +74,12 @@ impl Dependence {
     /// scores, ranks of equal values being averaged); the distributions of the factors are stated separately.
     pub fn from_measurements(factors: &[&str], columns: &[Vec<f64>]) -> Self {
         let scores: Vec<Vec<f64>> = columns.iter().map(|column| rank_scores(column)).collect();
-
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let correlation = |i: usize, j: usize| match i == j {
-            true if product(&scores[i], &scores[i]) > 0.0 => 1.0,
-            _ => {
-                product(&scores[i], &scores[j])
-                    / (product(&scores[i], &scores[i]) * product(&scores[j], &scores[j])).sqrt()
+        let mut rows = vec![vec![1.0; scores.len()]; scores.len()];
+        for (i, a) in scores.iter().enumerate() {
+            for (j, b) in scores.iter().enumerate().filter(|(j, _)| *j != i || product(a, a) <= 0.0) {
+                rows[i][j] = product(a, b) / (product(a, a) * product(b, b)).sqrt();
             }
-        };
-        let rows = (0..scores.len()).map(|i| (0..scores.len()).map(|j| correlation(i, j)).collect()).collect();
+        }
         Self { is_measured: true, ..Self::new(factors, rows).measure(CorrelationMeasure::Normal) }
     }
 
@@ -110,11 +106,13 @@ impl Dependence {
 
     /// Checks the matrix, and returns the indices of its factors in `space`.
     fn checked(&self, space: &Space) -> Result<Vec<usize>, DependenceError> {
-        let number = |name: &String| {
-            let place = space.factors().iter().position(|factor| factor.name == *name);
-            place.map_or_else(|| refused(format!("dependence of `{name}`, which is not a factor of the study")), Ok)
-        };
-        let numbers = self.factors.iter().map(number).collect::<Result<Vec<usize>, _>>()?;
+        let mut numbers = Vec::with_capacity(self.factors.len());
+        for name in &self.factors {
+            let Some(number) = space.factors().iter().position(|factor| factor.name == *name) else {
+                return refused(format!("dependence of `{name}`, which is not a factor of the study"));
+            };
+            numbers.push(number);
+        }
         let n = numbers.len();
         let mut distinct = numbers.clone();
         distinct.sort_unstable();
@@ -133,9 +131,9 @@ impl Dependence {
             ));
         }
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let (a, b, found) = (&self.factors[i], &self.factors[j], self.correlation[i][j]);
-            if self.is_measured && i != j && found.abs() > 1.0 - EQUAL_RANKS {
-                let order = if found > 0.0 { "same" } else { "opposite" };
+            let (a, b, correlation) = (&self.factors[i], &self.factors[j], self.correlation[i][j]);
+            if self.is_measured && i != j && correlation.abs() > 1.0 - EQUAL_RANKS {
+                let order = if correlation > 0.0 { "same" } else { "opposite" };
                 return refused(format!(
                     "the joint measurements of `{a}` and `{b}` have the {order} order, so each is a function of the \
                      other, not a separate factor. Leave one of them out of the study, and let the model compute it from the \
@@ -143,12 +141,14 @@ impl Dependence {
                 ));
             }
             let expected = match i == j {
-                true if found != 1.0 => "1, as on the whole diagonal",
-                false if !(found > -1.0 && found < 1.0) => "a number between -1 and 1, both excluded",
-                false if found != self.correlation[j][i] => "the same number as on the other side of the diagonal",
+                true if correlation != 1.0 => "1, as on the whole diagonal",
+                false if !(correlation > -1.0 && correlation < 1.0) => "a number between -1 and 1, both excluded",
+                false if correlation != self.correlation[j][i] => {
+                    "the same number as on the other side of the diagonal"
+                }
                 _ => continue,
             };
-            return refused(format!("the correlation of `{a}` and `{b}` is {found}: expected {expected}"));
+            return refused(format!("the correlation of `{a}` and `{b}` is {correlation}: expected {expected}"));
         }
         Ok(numbers)
     }
@@ -183,11 +183,11 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         return Ok(None);
     }
     GaussianCopula::new(scores).map(Some).map_err(|nearest| {
-        let is_tied = |i: &usize| (0..factors.len()).any(|j| j != *i && stated[(*i, j)]);
-        let tied: Vec<usize> = (0..factors.len()).filter(is_tied).collect();
-        let row = |i: &usize| tied.iter().map(|j| nearest[(*i, *j)]).collect();
+        let tied: Vec<usize> =
+            (0..factors.len()).filter(|&i| (0..factors.len()).any(|j| j != i && stated[(i, j)])).collect();
         let names: Vec<&String> = tied.iter().map(|&i| &factors[i].name).collect();
-        let nearest: Vec<Vec<f64>> = tied.iter().map(row).collect();
+        let nearest: Vec<Vec<f64>> =
+            tied.iter().map(|&i| tied.iter().map(|&j| nearest[(i, j)]).collect()).collect();
         DependenceError(format!(
             "the correlations are not positive definite, so no factors can have all of them. The nearest possible ones, of normal \
              scores (measure = \"normal\"): factors = {names:?}, correlation = {nearest:?}"
@@ -203,6 +203,10 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
         _ => return Ok(()),
     };
     refused(format!("`{}` is {kind}, which has no correlation with another factor", factor.name))
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Returns Phi^-1(rank / (n + 1)) of every value, with mean 0.

@@ -19,7 +19,7 @@ use apportion_base::names::named;
 use apportion_base::quantity::Unit;
 
 named! {
-/// What has indices of its own.
+/// What has indices.
 #[derive(Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -167,8 +167,8 @@ impl Space {
         groups
     }
 
-    /// Returns what has indices of its own: factors as groups of one, and groups in place of their factors if so asked.
-    /// In order of first appearance.
+    /// Returns what has indices, in order of first appearance: factors as groups of one, or groups in place of their
+    /// factors.
     pub fn members(&self, of: IndicesOf) -> Vec<Group> {
         let mut members: Vec<Group> = Vec::new();
         let groups = if of == IndicesOf::Groups { self.groups() } else { Vec::new() };
@@ -182,7 +182,7 @@ impl Space {
         members
     }
 
-    /// Returns a point of the unit cube as values in the factors' own units.
+    /// Returns a point of the unit cube as values in the units of the factors.
     pub fn values_at(&self, u: &[f64]) -> Vec<f64> {
         self.factors.iter().zip(u).map(|(factor, &u)| factor.distribution.quantile(u)).collect()
     }

@@ -15,27 +15,22 @@ use apportion_base::digest::sha256;
 use apportion_base::quantity::Unit;
 
 /// A builder of studies, created by [`Study::builder`].
+///
+/// Its methods are for programs, and say what each field means. The fields are public for readers of study files, where
+/// most keys are optional.
 #[must_use]
 pub struct StudyBuilder {
     name: String,
-    /// A title for people.
     pub title: Option<String>,
     subject: Arc<dyn Subject>,
-    /// The factors, in the order of the Sobol' dimensions.
+    /// In the order of the Sobol' dimensions.
     pub factors: Vec<Result<Factor, BuildError>>,
-    /// The sampler.
     pub sampler: Sampler,
-    /// The length of the run.
     pub length: Length,
-    /// Number of independent scrambles; by default that of the interval method.
     pub replicates: Option<u64>,
-    /// Seed of the points.
     pub seed: u64,
-    /// What to estimate; by default [`AnalysisOptions::for_sampler`].
     pub analysis: Option<AnalysisOptions>,
-    /// Low-fidelity models of the same outputs.
-    pub lows: Vec<LowFidelity>,
-    /// Which factors depend on each other.
+    pub low_fidelities: Vec<LowFidelity>,
     pub dependences: Vec<Dependence>,
 }
 
@@ -53,7 +48,7 @@ impl StudyBuilder {
             replicates: None,
             seed,
             analysis: None,
-            lows: Vec::new(),
+            low_fidelities: Vec::new(),
             dependences: Vec::new(),
         }
     }
@@ -171,10 +166,10 @@ impl StudyBuilder {
     }
 
     /// Adds a named low-fidelity model of the same outputs, used where it helps; the runs of the model correct it.
-    /// `base_samples` is the size of its own design; `None` to let the run choose.
+    /// `base_samples` is the size of its separate design; `None` to let the run choose.
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
-        self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });
+        self.low_fidelities.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
 
@@ -205,30 +200,20 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(sampler));
         let analysis = rules::checked_options(analysis, sampler, &space, outputs)?;
         let space = space.with_dependences(self.dependences)?;
-        rules::check_dependent(&analysis, &space, &self.lows)?;
+        rules::check_dependent(&analysis, &space, &self.low_fidelities)?;
         length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
         let (base_samples, plain_rows) = length.sizes(&analysis, &space, sampler, replicates)?;
         let settings = DesignSettings { sampler, base_samples, replicates, seed: self.seed };
         let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, plain_rows))?;
-        let design = length.target.within_max_runs(design).or_else(|least| {
-            let expected = format!("{least} or more, for 2 base samples in each of {replicates} replicates");
+        let design = length.target.within_max_runs(design).or_else(|min_runs| {
+            let expected = format!("{min_runs} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
         })?;
-        for (number, low) in self.lows.iter().enumerate() {
-            if self.lows[..number].iter().any(|other| other.name == low.name) {
-                return Err(BuildError::Repeated { what: "cheaper model", name: low.name.clone() });
-            }
-            if let Some(problem) = low.refused(&*model, &space) {
-                return Err(BuildError::LowFidelity { name: low.name.clone(), problem });
-            }
-            if low.base_samples.is_some() && length.target.accuracy.is_some() {
-                return wrong("base_samples", "left out with `accuracy`, which chooses it", "given");
-            }
-        }
+        rules::check_low_fidelities(&self.low_fidelities, &*model, &space, length.target)?;
         let mut notes = Vec::new();
-        if length.base_samples.is_some_and(|asked| asked != design.settings().base_samples) {
-            let used = design.settings().base_samples;
+        let used = design.settings().base_samples;
+        if length.base_samples.is_some_and(|requested| requested != used) {
             notes.push(format!(
                 "base_samples = {base_samples} is not a multiple of {replicates} replicates: {used} are used"
             ));
@@ -250,7 +235,7 @@ impl StudyBuilder {
             design,
             analysis,
             target: length.target,
-            lows: self.lows,
+            lows: self.low_fidelities,
             source: StudySource { notes, ..StudySource::default() },
         })
     }

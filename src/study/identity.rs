@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::Study;
-use crate::design::{Sampler, Swap};
+use crate::design::{DesignSettings, Sampler};
 use apportion_base::digest::sha256;
 
 impl Study {
@@ -20,36 +20,33 @@ impl Study {
         let constants: Map<String, Value> =
             self.constants().into_iter().map(|(name, value, unit)| (name, json!([value, unit]))).collect();
         let outputs: Vec<Value> =
-            self.model().outputs().iter().map(|o| json!({ "name": o.name, "unit": o.unit.to_string() })).collect();
-        let factor = |factor: &crate::space::Factor| {
-            json!({
-                "name": factor.name,
-                "unit": factor.unit().to_string(),
-                "distribution": factor.distribution(),
-                // Long lists of values are shortened in the line above.
-                "digest": digest(&format!("{:?}", factor.distribution())),
-            })
-        };
-        let (design, settings_of_design) = (&self.design, self.design.settings());
-        let names = |swap: &Swap| swap.iter().map(|k| self.space.factors()[*k].name.as_str()).collect::<Vec<_>>();
+            self.model().outputs().iter().map(|output| json!({ "name": output.name, "unit": output.unit })).collect();
+        let mut factors = Vec::with_capacity(self.space.factors().len());
+        for factor in self.space.factors() {
+            let (unit, distribution) = (factor.unit(), factor.distribution());
+            factors.push(json!({ "name": factor.name, "unit": unit, "distribution": distribution }));
+        }
+        let design = &self.design;
+        let DesignSettings { sampler, base_samples, replicates, seed } = *design.settings();
+        let mut swaps = Vec::with_capacity(design.swaps().len());
+        for swap in design.swaps() {
+            swaps.push(swap.iter().map(|k| &*self.space.factors()[*k].name).collect::<Vec<_>>().join("+"));
+        }
         let mut points = json!({
-            "sampler": settings_of_design.sampler,
-            "seed": settings_of_design.seed,
-            "replicates": settings_of_design.replicates,
+            "sampler": sampler,
+            "seed": seed,
+            "replicates": replicates,
             "rows_per_point": design.rows_per_point(),
-            "swaps": design.swaps().iter().map(|swap| names(swap).join("+")).collect::<Vec<_>>(),
-            // Kept for existing journals: rows BC and CB no longer exist.
-            "companions": { "ba": design.has_ba(), "bc": false, "cb": false },
+            "swaps": swaps,
+            "ba": design.has_ba(),
+            "plain_rows": design.plain_rows(),
         });
-        if design.plain_rows() > 0 {
-            points["plain_rows"] = json!(design.plain_rows());
-        }
         if let Some(copula) = self.space.copula() {
-            points["copula"] = json!(digest(&format!("{:?}", copula)));
-            points["redrawn"] = json!(design.asked().redrawn);
+            points["copula"] = json!(sha256(json!(copula.rows()).to_string().as_bytes()));
+            points["redrawn"] = json!(design.requested().redrawn);
         }
-        if settings_of_design.sampler == Sampler::LatinHypercube {
-            points["base_samples"] = json!(settings_of_design.base_samples);
+        if sampler == Sampler::LatinHypercube {
+            points["base_samples"] = json!(base_samples);
         }
         json!({
             "apportion": env!("CARGO_PKG_VERSION"),
@@ -57,12 +54,8 @@ impl Study {
             "settings": settings,
             "constants": constants,
             "outputs": outputs,
-            "factors": self.space.factors().iter().map(factor).collect::<Vec<_>>(),
+            "factors": factors,
             "design": points,
         })
     }
-}
-
-fn digest(text: &str) -> String {
-    sha256(text.as_bytes())[..16].to_owned()
 }

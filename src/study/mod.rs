@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 pub use build_error::BuildError;
 pub use builder::StudyBuilder;
-pub use options::{AnalysisOptions, MAX_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, SurrogateChoice, Target};
 use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
 use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
@@ -27,27 +27,17 @@ use crate::space::Space;
 use crate::surrogate::fewest_points;
 pub use apportion_base::names::nearest;
 
-/// A checked study: a subject, the space of its factors, and the design that explores it.
+/// A checked study: a subject, the space of its factors, and the design that explores it. Its methods describe its fields.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Name, by default the file's name without its ending. Result files are named after it.
     pub(crate) name: String,
-    /// Title for people.
     pub(crate) title: Option<String>,
-    /// The model with its choices.
     pub(crate) subject: Arc<dyn Subject>,
-    /// The factors.
     pub(crate) space: Space,
-    /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
-    /// [`Study::analysis`], and the dummy factor if there is one.
     pub(crate) design: Design,
-    /// What to estimate from the runs.
     pub(crate) analysis: AnalysisOptions,
-    /// When a growing run ends.
     pub(crate) target: Target,
-    /// Low-fidelity models of the same outputs.
     pub(crate) lows: Vec<LowFidelity>,
-    /// Where it is from.
     pub(crate) source: StudySource,
 }
 
@@ -100,13 +90,12 @@ impl Study {
     /// # Errors
     /// [`BuildError`] if its outputs, by name and unit, differ from those of the study.
     pub fn with_model(self, model: Arc<dyn Model>, version: &str) -> Result<Self, BuildError> {
-        let words = |model: &dyn Model| {
+        let [outputs, expected] = [&model, &self.model()].map(|model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
             outputs.collect::<Vec<_>>().join(", ")
-        };
-        let (found, expected) = (words(&*model), words(&*self.model()));
-        if found != expected {
-            return rules::wrong("outputs", format!("those of the study, {expected}"), found);
+        });
+        if outputs != expected {
+            return rules::wrong("outputs", format!("those of the study, {expected}"), outputs);
         }
         let subject = CustomSubject { model, version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })

@@ -23,14 +23,13 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, for which joint indices are estimated.
     pub subsets: Vec<Vec<usize>>,
-    /// What has indices of its own: the factors, or the groups in place of their factors.
+    /// What has indices: the factors, or the groups in place of their factors.
     pub indices_of: IndicesOf,
     /// Whether Shapley effects are estimated, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS)
     /// factors or groups. `None` estimates them for up to four if factors depend on each other.
     pub shapley: Option<bool>,
     /// Other measures to report in addition to Sobol' indices, from the first
-    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most
-    /// [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
+    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most 100 outputs.
     pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are estimated.
     pub aggregate: bool,
@@ -80,11 +79,13 @@ impl AnalysisOptions {
 
     /// Returns whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
-        let is_free = || space.copula().is_some() && self.members(space).len() <= FREE_SHAPLEY_FACTORS;
-        self.shapley.unwrap_or_else(is_free)
+        match self.shapley {
+            Some(shapley) => shapley,
+            None => space.copula().is_some() && self.members(space).len() <= FREE_SHAPLEY_FACTORS,
+        }
     }
 
-    /// Returns what has indices of its own.
+    /// Returns what has indices.
     pub(crate) fn members(&self, space: &Space) -> Vec<Group> {
         space.members(self.indices_of)
     }
@@ -123,7 +124,7 @@ impl AnalysisOptions {
 }
 
 named! {
-    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are exact, so
     /// that the runs only need to estimate the remainder ([`crate::surrogate`]).
     #[derive(Default)]
     pub enum SurrogateChoice {
@@ -228,7 +229,7 @@ const FIRST_TRIAL_POINTS: u64 = 4;
 const FREE_SHAPLEY_FACTORS: usize = 4;
 
 /// Maximum number of outputs of a study with other measures: each takes about a second.
-pub const MAX_OUTPUTS_OF_MEASURES: usize = 100;
+pub(super) const MAX_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 
@@ -243,18 +244,18 @@ pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 /// if that takes more.
 pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
     const SHARE: u64 = 3;
-    let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
-    let least = runs_of(2);
-    if least > runs {
-        return Err(least);
+    let runs_of_a_point = replicates.saturating_mul(runs_per_point);
+    let min_runs = runs_of_a_point.saturating_mul(2);
+    if min_runs > runs {
+        return Err(min_runs);
     }
-    let most = if for_surrogates { runs / SHARE } else { runs };
-    let mut points = 2;
-    while runs_of(2 * points) <= most {
+    let max_runs = if for_surrogates { runs / SHARE } else { runs };
+    let mut points: u64 = 2;
+    while runs_of_a_point.saturating_mul(2 * points) <= max_runs {
         points *= 2;
     }
     let base_samples = points * replicates;
-    let plain = (runs - runs_of(points)) / base_samples;
+    let plain = (runs - runs_of_a_point * points) / base_samples;
     let plain = if for_surrogates { plain.min(u64::from(MAX_PLAIN_ROWS)) as u32 } else { 0 };
     Ok((base_samples, plain))
 }
@@ -273,12 +274,11 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     swaps.extend(analysis.dummy.then(Vec::new));
     if analysis.has_shapley(space) {
         let first = swaps.len();
-        let joined = |subset: Vec<usize>| {
+        for subset in proper_subsets(players.len()) {
             let mut factors: Swap = subset.into_iter().flat_map(|player| players[player].clone()).collect();
             factors.sort_unstable();
-            factors
-        };
-        swaps.extend(proper_subsets(players.len()).into_iter().map(joined));
+            swaps.push(factors);
+        }
         redrawn.extend(first..swaps.len());
     }
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());

@@ -6,8 +6,8 @@ use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, rows, split};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
-use crate::model::{Model, OutputSeries};
-use crate::space::{Factor, Group, IndicesOf, Space};
+use crate::model::Model;
+use crate::space::{Factor, IndicesOf, Space};
 use crate::uncertainty::IntervalMethod;
 use apportion_base::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
 
@@ -27,7 +27,7 @@ pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildEr
     }
 }
 
-/// Checks that outputs have distinct names, and that every series has outputs of its own.
+/// Checks that outputs have distinct names, and that no two series share an output.
 pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let outputs = model.outputs();
     if outputs.is_empty() {
@@ -39,11 +39,12 @@ pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
         }
     }
     let mut taken = BTreeSet::new();
-    let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs.len() || !taken.insert(place));
-    if let Some(series) = model.series().iter().find(is_wrong) {
+    for series in model.series() {
         let (name, places, count) = (&series.name, series.places(), outputs.len());
-        let expected = format!("{count}, and those of the series `{name}` must belong to no other series");
-        return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
+        if places.clone().any(|place| place >= count || !taken.insert(place)) {
+            let expected = format!("{count}, and those of the series `{name}` must belong to no other series");
+            return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
+        }
     }
     Ok(())
 }
@@ -133,10 +134,13 @@ pub(super) fn checked_options(
 fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
     let members = options.members(space);
     if options.indices_of == IndicesOf::Groups {
-        let is_taken = |group: &Group| space.factors().iter().any(|factor| factor.name == group.name);
-        let obstacle = match space.groups() {
-            groups if groups.is_empty() => "in a study without groups",
-            groups if groups.iter().any(is_taken) => "where a group has the name of a factor",
+        let groups = space.groups();
+        let names: BTreeSet<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
+        let obstacle = match () {
+            () if groups.is_empty() => "in a study without groups",
+            () if groups.iter().any(|group| names.contains(group.name.as_str())) => {
+                "where a group has the name of a factor"
+            }
             _ if space.noise().is_some() => "with [noise]",
             _ => "",
         };
@@ -161,19 +165,47 @@ fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildErr
 pub(super) fn check_dependent(
     options: &AnalysisOptions,
     space: &Space,
-    lows: &[LowFidelity],
+    low_fidelities: &[LowFidelity],
 ) -> Result<(), BuildError> {
     let refused = [
         ("noise", space.noise().is_some()),
         ("surrogate", options.surrogate == SurrogateChoice::On),
-        ("low", !lows.is_empty()),
+        ("low", !low_fidelities.is_empty()),
     ];
-    match refused.into_iter().find(|(_, asked)| *asked) {
+    match refused.into_iter().find(|(_, is_given)| *is_given) {
         Some((key, _)) if space.copula().is_some() => {
             wrong(key, "left out where factors depend on each other: it needs independent ones", "given")
         }
         _ => Ok(()),
     }
+}
+
+/// Checks that low-fidelity models have distinct names and the outputs of `model`, and no size where the accuracy
+/// determines it.
+pub(super) fn check_low_fidelities(
+    low_fidelities: &[LowFidelity],
+    model: &dyn Model,
+    space: &Space,
+    target: Target,
+) -> Result<(), BuildError> {
+    let mut names = BTreeSet::new();
+    for LowFidelity { name, subject, base_samples } in low_fidelities {
+        if !names.insert(name) {
+            return Err(BuildError::Repeated { what: "cheaper model", name: name.clone() });
+        }
+        let [outputs, expected] = [&*subject.model(space), model].map(|model| {
+            let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+            names.join(", ")
+        });
+        if outputs != expected {
+            let problem = format!("its outputs are {outputs}, and must be those of the model: {expected}");
+            return Err(BuildError::LowFidelity { name: name.clone(), problem });
+        }
+        if base_samples.is_some() && target.accuracy.is_some() {
+            return wrong("base_samples", "left out with `accuracy`, which chooses it", "given");
+        }
+    }
+    Ok(())
 }
 
 /// The length of a run, given in one way: by base samples, by runs, or by an accuracy; and limits if it grows.
@@ -191,13 +223,13 @@ impl Length {
             ("runs", self.runs.is_some()),
             ("base_samples", self.base_samples.is_some()),
         ];
-        let mut said = sizes.into_iter().filter(|(_, said)| *said).map(|(key, _)| key);
-        let (size, second) = (said.next(), said.next());
+        let mut given = sizes.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
+        let (size, second) = (given.next(), given.next());
         if let Some((size, second)) = size.zip(second) {
             return wrong(second, "the only key for the length of a run", format!("together with `{size}`"));
         }
         let limits = [("max_runs", max_runs.is_some()), ("max_time", max_time.is_some())];
-        if let Some((limit, _)) = limits.into_iter().find(|(_, said)| *said)
+        if let Some((limit, _)) = limits.into_iter().find(|(_, is_given)| *is_given)
             && let Some(size) = size.filter(|size| *size != "accuracy")
         {
             return wrong(limit, "used with `accuracy` or alone", format!("with `{size}`"));
@@ -230,11 +262,10 @@ impl Length {
             return Ok((2 * replicates, 0));
         };
         let for_surrogates = options.takes_surrogates(sampler, replicates, space);
-        split(runs, one.rows_per_point(), replicates, for_surrogates).or_else(|least| {
+        split(runs, one.rows_per_point(), replicates, for_surrogates).or_else(|min_runs| {
             let expected = format!(
-                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use \
-                 random points: `apportion sample STUDY --random {}`, then `apportion given-data`)",
-                runs.max(10)
+                "{min_runs} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use given \
+                 data at random points)"
             );
             wrong("runs", expected, runs)
         })

@@ -54,7 +54,7 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
         Vec::new()
     }
 
-    /// Returns the exact first-order and total indices of the factors of `space`, if they are known.
+    /// Returns the exact first-order and total indices of the factors of `space`, if there is a formula or a table of them.
     fn exact_indices(&self, _space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
         None
     }
@@ -90,25 +90,8 @@ pub struct LowFidelity {
     pub name: String,
     /// The model.
     pub subject: Arc<dyn Subject>,
-    /// Base samples of its own design; `None` to let the run choose.
+    /// Base samples of its separate design; `None` to let the run choose.
     pub base_samples: Option<u64>,
-}
-
-impl LowFidelity {
-    /// Returns why it cannot be used with `model` on the factors of `space`; `None` if it can.
-    pub(super) fn refused(&self, model: &dyn Model, space: &Space) -> Option<String> {
-        let low = self.subject.model(space);
-        let names = |model: &dyn Model| -> Vec<String> { model.outputs().iter().map(|o| o.name.to_string()).collect() };
-        let (own, wanted) = (names(&*low), names(model));
-        if own != wanted {
-            return Some(format!(
-                "its outputs are {}, and must be those of the model: {}",
-                own.join(", "),
-                wanted.join(", ")
-            ));
-        }
-        None
-    }
 }
 
 impl dyn Subject {

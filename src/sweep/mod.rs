@@ -13,7 +13,7 @@ use thiserror::Error;
 
 use crate::model::{Batch, Model, Output, RowFailure, RunContext};
 use crate::run::{Halt, TableRun};
-use crate::space::{Factor, Space};
+use crate::space::Space;
 use crate::study::{did_you_mean, nearest};
 
 /// The results of sweeps.
@@ -56,7 +56,7 @@ pub struct Sweep {
     /// Its values in `unit`.
     pub values: Vec<f64>,
     /// The labels of the values, for a factor of categories.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
     /// The outputs over the values.
     pub outputs: Vec<SweptOutput>,
@@ -98,14 +98,14 @@ pub enum SweepError {
     #[error(transparent)]
     Halted(#[from] Halt),
     /// The factor is unknown.
-    #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), known.join(", "))]
+    #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), factors.join(", "))]
     UnknownFactor {
         /// The name given.
         name: String,
         /// The nearest factor.
         nearest: Option<String>,
         /// All factors of the study.
-        known: Vec<String>,
+        factors: Vec<String>,
     },
     /// A factor was requested twice.
     #[error("factor `{0}` is listed twice")]
@@ -120,20 +120,20 @@ pub enum SweepError {
 /// # Errors
 /// [`SweepError`]: an unknown name, or a duplicate one.
 pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, SweepError> {
-    let known = || space.factors().iter().map(|factor| factor.name.as_str());
-    let mut found = Vec::new();
+    let factors: Vec<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
+    let mut numbers = Vec::new();
     for name in names.iter().map(|name| name.as_ref().trim()) {
-        let number = known().position(|known| known == name).ok_or_else(|| SweepError::UnknownFactor {
+        let number = factors.iter().position(|factor| *factor == name).ok_or_else(|| SweepError::UnknownFactor {
             name: name.to_owned(),
-            nearest: nearest(name, known()),
-            known: known().map(str::to_owned).collect(),
+            nearest: nearest(name, factors.iter().copied()),
+            factors: factors.iter().map(|factor| (*factor).to_owned()).collect(),
         })?;
-        if found.contains(&number) {
+        if numbers.contains(&number) {
             return Err(SweepError::Repeated(name.to_owned()));
         }
-        found.push(number);
+        numbers.push(number);
     }
-    Ok(if names.is_empty() { (0..space.factors().len()).collect() } else { found })
+    Ok(if names.is_empty() { (0..factors.len()).collect() } else { numbers })
 }
 
 /// Moves each of `factors`, by index, over its range at `points` points, every other factor at its nominal value.
@@ -168,7 +168,7 @@ pub fn sweep(
     points: usize,
     context: &RunContext<'_>,
 ) -> Result<Sweeps, SweepError> {
-    let mut bench = Bench {
+    let mut evaluator = Evaluator {
         space,
         outputs: model.outputs(),
         run: TableRun::new(model, context, 0),
@@ -176,37 +176,24 @@ pub fn sweep(
         flags: vec![0; model.flags().len()],
     };
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
-    let at_nominal = |curve: SweptOutput| {
+    let nominal: Vec<NominalOutput> = evaluator.curve(0, &[first])?.into_iter().map(NominalOutput::new).collect();
+    let mut sweeps = Vec::with_capacity(factors.len());
+    for &number in factors {
+        sweeps.push(evaluator.sweep(number, points, &nominal)?);
+    }
+    context.messages().finish();
+    let runs = 1 + sweeps.iter().map(|sweep| sweep.values.len() as u64).sum::<u64>();
+    Ok(Sweeps { nominal, sweeps, runs, flags: evaluator.flags })
+}
+
+impl NominalOutput {
+    /// Creates it from a curve of one value.
+    fn new(curve: SweptOutput) -> Self {
         let value = curve.values.into_iter().next().flatten();
         let failure = curve.gaps.into_iter().next().map(|gap| gap.reason);
         let reason = value.is_none().then(|| failure.unwrap_or_else(|| RowFailure::not_finite().to_string()));
-        NominalOutput { output: curve.name, unit: curve.unit, value, reason }
-    };
-    let nominal: Vec<NominalOutput> = bench.curve(0, &[first])?.into_iter().map(at_nominal).collect();
-    let one = |&number: &usize| {
-        let factor = &space.factors()[number];
-        let values = values_over_range(factor.distribution(), points)?;
-        let mut outputs = bench.curve(number, &values)?;
-        for ((swept, nominal), output) in outputs.iter_mut().zip(&nominal).zip(model.outputs()) {
-            let width = swept.high.zip(swept.low).map(|(high, low)| high - low).filter(|_| !output.unit.has_offset());
-            let percent = nominal.value.zip(width).map(|(value, width)| 100.0 * (width / value.abs()));
-            swept.percent = percent.filter(|percent| percent.is_finite());
-        }
-        let law = factor.distribution();
-        Ok(Sweep {
-            factor: factor.name.clone(),
-            unit: factor.unit().to_string(),
-            nominal: factor.nominal,
-            spacing: if is_logarithmic(law) { "logarithmic" } else { "linear" }.to_owned(),
-            labels: values.iter().map(|value| law.label(*value).map(str::to_owned)).collect(),
-            values,
-            outputs,
-        })
-    };
-    let sweeps = factors.iter().map(one).collect::<Result<Vec<Sweep>, SweepError>>()?;
-    context.messages().finish();
-    let runs = 1 + sweeps.iter().map(|sweep| sweep.values.len() as u64).sum::<u64>();
-    Ok(Sweeps { nominal, sweeps, runs, flags: bench.flags })
+        Self { output: curve.name, unit: curve.unit, value, reason }
+    }
 }
 
 impl SweptOutput {
@@ -217,7 +204,7 @@ impl SweptOutput {
 }
 
 /// A model with its factors at their nominal values.
-struct Bench<'a> {
+struct Evaluator<'a> {
     space: &'a Space,
     outputs: &'a [Output],
     run: TableRun<'a>,
@@ -226,31 +213,55 @@ struct Bench<'a> {
     flags: Vec<u64>,
 }
 
-impl Bench<'_> {
+impl Evaluator<'_> {
+    /// Moves one factor, by index, over its range.
+    fn sweep(&mut self, number: usize, points: usize, nominal: &[NominalOutput]) -> Result<Sweep, SweepError> {
+        let factor = &self.space.factors()[number];
+        let distribution = factor.distribution();
+        let values = values_over_range(distribution, points)?;
+        let mut outputs = self.curve(number, &values)?;
+        for ((swept, nominal), output) in outputs.iter_mut().zip(nominal).zip(self.outputs) {
+            let width = swept.high.zip(swept.low).map(|(high, low)| high - low).filter(|_| !output.unit.has_offset());
+            let percent = nominal.value.zip(width).map(|(value, width)| 100.0 * (width / value.abs()));
+            swept.percent = percent.filter(|percent| percent.is_finite());
+        }
+        Ok(Sweep {
+            factor: factor.name.clone(),
+            unit: factor.unit().to_string(),
+            nominal: factor.nominal,
+            spacing: if is_logarithmic(distribution) { "logarithmic" } else { "linear" }.to_owned(),
+            labels: values.iter().map(|value| distribution.label(*value).map(str::to_owned)).collect(),
+            values,
+            outputs,
+        })
+    }
+
     /// Returns every output for each of `values` of one factor, in its unit.
     fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, Halt> {
         let factors = self.space.factors();
         let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();
-        let most = self.run.rows_at_once();
-        for (block, values) in values.chunks(most).enumerate() {
-            let nominal = |factor: &Factor| vec![factor.unit().to_si(factor.nominal); values.len()];
-            let mut columns: Vec<Vec<f64>> = factors.iter().map(nominal).collect();
+        let max_rows = self.run.rows_at_once();
+        for (block, values) in values.chunks(max_rows).enumerate() {
+            let nominal = factors.iter().map(|factor| factor.unit().to_si(factor.nominal));
+            let mut columns: Vec<Vec<f64>> = nominal.map(|value| vec![value; values.len()]).collect();
             columns[factor] = values.iter().map(|value| factors[factor].unit().to_si(*value)).collect();
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             self.batch.reset(values.len());
             self.run.run(&inputs, &mut self.batch)?;
-            self.flags.iter_mut().zip(self.batch.flags()).for_each(|(sum, raised)| *sum += raised);
+            for (sum, raised) in self.flags.iter_mut().zip(self.batch.flags()) {
+                *sum += raised;
+            }
             for (number, (output, swept)) in self.outputs.iter().zip(&mut swept).enumerate() {
                 let column = self.batch.column(number).iter();
                 swept.values.extend(column.map(|value| value.is_finite().then(|| output.unit.from_si(*value))));
             }
             for (output, row, reason) in self.batch.failures() {
-                swept[*output].gaps.push(Gap { place: block * most + row, reason: reason.to_string() });
+                swept[*output].gaps.push(Gap { place: block * max_rows + row, reason: reason.to_string() });
             }
         }
         for swept in &mut swept {
-            let values = || swept.values.iter().copied().flatten();
-            (swept.low, swept.high) = (values().reduce(f64::min), values().reduce(f64::max));
+            let values = swept.values.iter().copied().flatten();
+            (swept.low, swept.high) = (values.clone().reduce(f64::min), values.reduce(f64::max));
         }
         Ok(swept)
     }

@@ -18,28 +18,26 @@ pub fn values_over_range(distribution: &Distribution, points: usize) -> Result<V
         return Err(SweepError::Points(points));
     }
     let (low, high) = range(distribution);
-    let last = points - 1;
-    let between = |i: usize| match i {
-        0 => low,
-        // Exactly the end, despite rounding on the way.
-        _ if i == last => high,
-        _ => {
-            let part = i as f64 / last as f64;
-            if is_logarithmic(distribution) {
-                libm::exp(libm::log(low) * (1.0 - part) + libm::log(high) * part)
-            } else {
-                low * (1.0 - part) + high * part
-            }
-        }
-    };
-    Ok(match distribution {
-        Distribution::Constant(_) => vec![low],
-        whole if whole.is_whole() && high - low >= points as f64 => (0..points).map(|i| between(i).round()).collect(),
-        _ => match distribution.levels() {
-            Some(levels) => levels.into_iter().map(|(value, _)| value).collect(),
-            None => (0..points).map(between).collect(),
-        },
-    })
+    if matches!(distribution, Distribution::Constant(_)) {
+        return Ok(vec![low]);
+    }
+    let are_rounded = distribution.is_whole() && high - low >= points as f64;
+    if !are_rounded && let Some(levels) = distribution.levels() {
+        return Ok(levels.into_iter().map(|(value, _)| value).collect());
+    }
+    let mut values = Vec::with_capacity(points);
+    for i in 0..points {
+        let part = i as f64 / (points - 1) as f64;
+        let value = match i {
+            0 => low,
+            // Exactly the end, despite rounding on the way.
+            _ if i == points - 1 => high,
+            _ if is_logarithmic(distribution) => libm::exp(libm::log(low) * (1.0 - part) + libm::log(high) * part),
+            _ => low * (1.0 - part) + high * part,
+        };
+        values.push(if are_rounded { value.round() } else { value });
+    }
+    Ok(values)
 }
 
 /// Returns whether its axis should be logarithmic.

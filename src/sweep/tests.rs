@@ -1,6 +1,7 @@
 use super::*;
 use crate::model::Worker;
 use crate::space::Distribution;
+use crate::space::Factor;
 use apportion_base::quantity::Unit;
 
 /// y = x0^3 / x1^2, and z = x2^2, which fails where x2 is above 0.8.
@@ -99,8 +100,8 @@ fn factors_are_found_by_name() {
     assert_eq!(find(&space, &["share", " length"]), Ok(vec![2, 0]));
     assert_eq!(find(&space, &["share", "share"]), Err(SweepError::Repeated("share".to_owned())));
     let error = find(&space, &["lenght"]).unwrap_err();
-    let SweepError::UnknownFactor { name, nearest, known } = error else { panic!("{error}") };
-    assert_eq!((name.as_str(), nearest.as_deref(), known.len()), ("lenght", Some("length"), 3));
+    let SweepError::UnknownFactor { name, nearest, factors } = error else { panic!("{error}") };
+    assert_eq!((name.as_str(), nearest.as_deref(), factors.len()), ("lenght", Some("length"), 3));
 }
 
 #[test]

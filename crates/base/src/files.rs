@@ -1,4 +1,4 @@
-//! Reading whole files, with a limit on the size of streams.
+//! Reading files, with a limit on the size of streams.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};

@@ -39,7 +39,7 @@ pub trait Named: Copy + 'static {
 pub const LONGEST_NAME: usize = 200;
 
 /// Maximum number of characters in a title.
-pub const LONGEST_TITLE: usize = 500;
+const LONGEST_TITLE: usize = 500;
 
 /// Maximum number of bytes in the name of a study: most systems allow 255 bytes in a file name, and endings are added.
 pub const LONGEST_STUDY_NAME: usize = 120;
@@ -118,8 +118,7 @@ pub fn shown(text: &str) -> String {
 /// assert_eq!(apportion_base::names::file_part("../x: y"), ".._x_ y");
 /// ```
 pub fn file_part(name: &str) -> String {
-    let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };
-    let mut part: String = name.chars().map(safe).collect();
+    let mut part = name.replace(|c| is_hidden(c) || "/\\:*?\"<>|".contains(c), "_");
     part.truncate(part.floor_char_boundary(LONGEST_PART));
     part
 }
@@ -130,20 +129,26 @@ pub const NAME_RULE: &str =
 
 /// Returns whether `name` satisfies [`NAME_RULE`].
 pub fn names_files(name: &str) -> bool {
-    let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    !name.trim().is_empty() && name.len() <= LONGEST_STUDY_NAME && !name.starts_with('.') && name.chars().all(fits)
+    let mut chars = name.chars();
+    let are_allowed = chars.all(|c| c.is_alphanumeric() || "-_. ".contains(c));
+    are_allowed && !name.trim().is_empty() && name.len() <= LONGEST_STUDY_NAME && !name.starts_with('.')
 }
 
-/// Returns the name in `known` nearest to `name`, if one is close enough to be meant. Names of more than 100 characters
-/// match none, because the comparison would take long.
-pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    const LONGEST: usize = 100;
-    let is_long = |name: &str| name.chars().nth(LONGEST).is_some();
+/// Maximum number of characters of a name that is compared with others: longer ones would take long.
+const LONGEST_COMPARED: usize = 100;
+
+fn is_long(name: &str) -> bool {
+    name.chars().nth(LONGEST_COMPARED).is_some()
+}
+
+/// Returns the one of `names` nearest to `name`, if it is close enough to be meant. Names of more than 100 characters
+/// match none.
+pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     if is_long(name) {
         return None;
     }
     let name = name.to_lowercase();
-    known
+    names
         .into_iter()
         .filter(|candidate| !is_long(candidate))
         .map(|candidate| (strsim::damerau_levenshtein(&name, &candidate.to_lowercase()), candidate))

@@ -13,7 +13,7 @@ use std::fmt;
 pub use dimension::Dimension;
 pub use domain::Domain;
 pub use error::UnitError;
-pub use same::{SAME_VALUE, is_same};
+pub use same::is_same;
 pub use unit::Unit;
 pub use unlikely::Unlikely;
 
@@ -57,24 +57,9 @@ impl Quantity {
 
 /// Returns the length in bytes of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
-    let digits = |from: usize| {
-        let rest = text.get(from..).unwrap_or_default();
-        from + rest.bytes().take_while(u8::is_ascii_digit).count()
-    };
-    let sign = |at: usize| usize::from(matches!(text.as_bytes().get(at), Some(b'+' | b'-')));
-    let mut end = digits(sign(0));
-    if text.as_bytes().get(end) == Some(&b'.') {
-        end = digits(end + 1);
-    }
-    if matches!(text.as_bytes().get(end), Some(b'e' | b'E')) {
-        let start = end + 1 + sign(end + 1);
-        let stop = digits(start);
-        // "3 eV" and "2e" contain no exponent.
-        if stop > start {
-            end = stop;
-        }
-    }
-    end
+    let max = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c)).unwrap_or(text.len());
+    // "3 eV" and "2e" contain no exponent.
+    (1..=max).rev().find(|length| text[..*length].parse::<f64>().is_ok()).unwrap_or(0)
 }
 
 impl fmt::Display for Quantity {

@@ -203,19 +203,17 @@ fn root_ratio(a: f64) -> f64 {
 /// to a relative change of less than `least_change`, by the modified Lentz algorithm (Press et al. 2007, Numerical
 /// Recipes, section 6.4). About sqrt(a) terms are needed.
 pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
-    const MIN_POSITIVE: f64 = 1e-300;
-    let away = |value: f64| if value.abs() < MIN_POSITIVE { MIN_POSITIVE } else { value };
-    let (mut c, mut d) = (1.0, 1.0 / away(1.0 - (a + b) * x / (a + 1.0)));
+    let (mut c, mut d) = (1.0, 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0)));
     let mut value = d;
     for m in 1..100_000 {
         let m = f64::from(m);
         let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
-        d = 1.0 / away(1.0 + even * d);
-        c = away(1.0 + even / c);
+        d = 1.0 / away_from_zero(1.0 + even * d);
+        c = away_from_zero(1.0 + even / c);
         value *= d * c;
         let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
-        d = 1.0 / away(1.0 + odd * d);
-        c = away(1.0 + odd / c);
+        d = 1.0 / away_from_zero(1.0 + odd * d);
+        c = away_from_zero(1.0 + odd / c);
         let change = d * c;
         value *= change;
         if (change - 1.0).abs() < least_change {
@@ -223,6 +221,12 @@ pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
         }
     }
     value
+}
+
+/// Returns `value`, or a tiny number in place of one near 0, by which Lentz's algorithm divides.
+pub fn away_from_zero(value: f64) -> f64 {
+    const TINY: f64 = 1e-300;
+    if value.abs() < TINY { TINY } else { value }
 }
 
 #[cfg(test)]

@@ -20,9 +20,9 @@ pub fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
 #[inline(always)]
 pub fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64; K] {
     let mut lanes = [[0.0; LANES]; K];
-    let whole = n - n % LANES;
+    let in_full_rounds = n - n % LANES;
     let mut i = 0;
-    while i < whole {
+    while i < in_full_rounds {
         for lane in 0..LANES {
             let terms = f(i + lane);
             for k in 0..K {
@@ -31,7 +31,7 @@ pub fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64;
         }
         i += LANES;
     }
-    for (lane, i) in (whole..n).enumerate() {
+    for (lane, i) in (in_full_rounds..n).enumerate() {
         let terms = f(i);
         for k in 0..K {
             lanes[k][lane] += terms[k];

@@ -50,7 +50,7 @@ pub fn subscript(text: &str) -> Option<&str> {
 }
 
 /// Returns whether a symbol may begin with the letter.
-pub fn is_letter(c: char) -> bool {
+fn is_letter(c: char) -> bool {
     c.is_ascii_alphabetic() || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϕ' | 'ϑ' | 'µ')
 }
 

@@ -36,7 +36,7 @@ fn comparison(sign: &str) -> Option<Comparison> {
         ("==", Comparison::Equal),
         ("!=", Comparison::NotEqual),
     ];
-    SIGNS.into_iter().find(|(known, _)| *known == sign).map(|(_, comparison)| comparison)
+    SIGNS.into_iter().find(|(name, _)| *name == sign).map(|(_, comparison)| comparison)
 }
 
 struct Parser<'a> {
@@ -64,11 +64,11 @@ impl Parser<'_> {
     }
 
     fn take(&mut self, sign: &str) -> bool {
-        let found = matches!(self.peek(), Token::Sign(other) if *other == sign);
-        if found {
+        let is_next = matches!(self.peek(), Token::Sign(other) if *other == sign);
+        if is_next {
             self.advance();
         }
-        found
+        is_next
     }
 
     fn wrong(&self, problem: ExpressionProblem) -> ExpressionError {

@@ -93,8 +93,11 @@ impl Program {
 
     /// Returns the numbers in the program, by their bits.
     pub fn numbers(&self) -> Vec<u64> {
-        let number = |step: &Step| if let Step::Number(number) = step { Some(number.to_bits()) } else { None };
-        self.steps.iter().filter_map(number).collect()
+        let numbers = self.steps.iter().filter_map(|step| match step {
+            Step::Number(number) => Some(number.to_bits()),
+            _ => None,
+        });
+        numbers.collect()
     }
 
     /// Computes the values of up to [`TILE`] rows, those of `inputs` from row `first` on.

@@ -32,14 +32,13 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {
         let rest = &text[at..];
-        let wrong = |length: usize, problem| Err(ExpressionError { problem, place: at..at + length });
         let length = if first.is_whitespace() {
             first.len_utf8()
         } else if first.is_ascii_digit() || first == '.' {
             let length = number_length(rest);
             match rest[..length].parse().ok().filter(|number: &f64| number.is_finite()) {
                 Some(number) => tokens.push((Token::Number(number), at..at + length)),
-                None => return wrong(length, ExpressionProblem::Number(rest[..length].to_owned())),
+                None => return wrong(at, length, ExpressionProblem::Number(rest[..length].to_owned())),
             }
             length
         } else if begins_name(first) {
@@ -56,9 +55,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
             tokens.push((Token::Sign(plain), at..at + sign.len()));
             sign.len()
         } else if first == '=' {
-            return wrong(1, ExpressionProblem::Assignment);
+            return wrong(at, 1, ExpressionProblem::Assignment);
         } else {
-            return wrong(first.len_utf8(), ExpressionProblem::Character(first));
+            return wrong(at, first.len_utf8(), ExpressionProblem::Character(first));
         };
         at += length;
     }
@@ -66,30 +65,36 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
     Ok(tokens)
 }
 
+fn wrong<T>(at: usize, length: usize, problem: ExpressionProblem) -> Result<T, ExpressionError> {
+    Err(ExpressionError { problem, place: at..at + length })
+}
+
 /// Returns the length in bytes of the name at the beginning of `text`, with any names joined to it by dots.
 fn dotted_length(text: &str) -> usize {
-    let name = |from: usize| text[from..].find(|c| !in_name(c)).map_or(text.len(), |length| from + length);
-    let mut end = name(0);
-    while let Some(next) = text[end..].strip_prefix('.')
-        && next.starts_with(begins_name)
-    {
-        end = name(end + 1);
+    let mut from = 0;
+    loop {
+        let end = text[from..].find(|c| !in_name(c)).map_or(text.len(), |length| from + length);
+        match text[end..].strip_prefix('.') {
+            Some(next) if next.starts_with(begins_name) => from = end + 1,
+            _ => return end,
+        }
     }
-    end
 }
 
 /// Returns the bytes of the number at the beginning of `text`, with all following digits and dots: `1.2.3` is one.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
-    let digits =
-        |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
-    let end = digits(0);
+    let end = end_of_digits(bytes, 0);
     if matches!(bytes.get(end), Some(b'e' | b'E')) {
         let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-        let stop = digits((end + 1 + sign).min(bytes.len()));
+        let stop = end_of_digits(bytes, (end + 1 + sign).min(bytes.len()));
         if stop > end + 1 + sign {
             return stop;
         }
     }
     end
+}
+
+fn end_of_digits(bytes: &[u8], from: usize) -> usize {
+    from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count()
 }

@@ -1,6 +1,6 @@
 //! The flow through a borehole.
 
-use super::function::{positive, uniform};
+use super::function::{constant, positive, uniform};
 use super::{Exact, KnownAnswer, KnownInput, Made};
 use crate::space::Distribution;
 
@@ -15,9 +15,8 @@ pub(super) const ENTRY: KnownAnswer = KnownAnswer {
 };
 
 fn inputs() -> Vec<KnownInput> {
-    let made = |distribution: Result<Distribution, _>| distribution.expect("constants of this file");
-    let rw = made(Distribution::truncated_normal(0.1, 0.016_181_2, 0.05, 0.15));
-    let r = made(Distribution::log_normal_of_logs(7.71, 1.0056));
+    let rw = constant(Distribution::truncated_normal(0.1, 0.016_181_2, 0.05, 0.15));
+    let r = constant(Distribution::log_normal_of_logs(7.71, 1.0056));
     vec![
         positive("rw", "radius of the borehole, m", rw),
         positive("r", "radius of influence, m", r),

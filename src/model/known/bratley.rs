@@ -35,22 +35,19 @@ fn value(x: &[f64]) -> f64 {
 /// each a sum of positive terms, from E x^2 = 1/3 and (E x)^2 = 1/4. For d = 8: variance 0.05540, S = (0.6634, 0.1698,
 /// 0.0405, 0.0111, 0.0023, 0.0008, 0.0001, 0.0001), ST_1 = 0.7475.
 fn exact(d: usize) -> Exact {
-    let power = |base: f64, m: usize| base.powi(m as i32);
-    let w = |m: usize| 1.0 - 2.0 / 3.0 * (1.0 - power(-0.5, d - m));
-    // Entry i - 1 is the sum over m >= i.
-    let tails = |base: f64| {
-        let mut tails = vec![0.0; d];
-        let mut sum = 0.0;
-        for m in (1..=d).rev() {
-            sum += w(m) * power(base, m);
-            tails[m - 1] = sum;
-        }
-        tails
-    };
-    let (thirds, fourths) = (tails(1.0 / 3.0), tails(0.25));
-    let variance: f64 = (1..=d).rev().map(|m| w(m) * (power(1.0 / 3.0, m) - power(0.25, m))).sum();
-    let first = fourths.iter().map(|tail| tail / 3.0 / variance).collect();
-    let total = thirds.iter().map(|tail| tail / 4.0 / variance).collect();
-    let mean = (power(-0.5, d) - 1.0) / 3.0;
+    // For m from d down to 1, so that the last sums are those over all m.
+    let (mut thirds, mut fourths, mut variance) = (0.0, 0.0, 0.0);
+    let (mut first, mut total) = (vec![0.0; d], vec![0.0; d]);
+    for m in (1..=d).rev() {
+        let power = m as i32;
+        let w = 1.0 - 2.0 / 3.0 * (1.0 - (-0.5f64).powi((d - m) as i32));
+        let (third, fourth) = ((1.0 / 3.0f64).powi(power), 0.25f64.powi(power));
+        variance += w * (third - fourth);
+        (thirds, fourths) = (thirds + w * third, fourths + w * fourth);
+        (first[m - 1], total[m - 1]) = (fourths, thirds);
+    }
+    let first = first.iter().map(|tail| tail / 3.0 / variance).collect();
+    let total = total.iter().map(|tail| tail / 4.0 / variance).collect();
+    let mean = ((-0.5f64).powi(d as i32) - 1.0) / 3.0;
     Exact::closed(mean, variance, first, total)
 }

@@ -1,6 +1,6 @@
 //! A river that overflows its dyke.
 
-use super::function::{positive, uniform};
+use super::function::{constant, positive, triangular, uniform};
 use super::{Exact, KnownAnswer, KnownInput, Made};
 use crate::space::Distribution;
 
@@ -14,10 +14,8 @@ pub(super) const ENTRY: KnownAnswer = KnownAnswer {
 };
 
 fn inputs() -> Vec<KnownInput> {
-    let made = |distribution: Result<Distribution, _>| distribution.expect("constants of this file");
-    let triangular = |min, mode, max| made(Distribution::triangular(min, mode, max));
-    let flow = made(Distribution::truncated_gumbel(1013.0, 558.0, 500.0, 3000.0));
-    let strength = made(Distribution::truncated_normal(30.0, 8.0, 15.0, 110.0));
+    let flow = constant(Distribution::truncated_gumbel(1013.0, 558.0, 500.0, 3000.0));
+    let strength = constant(Distribution::truncated_normal(30.0, 8.0, 15.0, 110.0));
     vec![
         positive("Q", "highest flow rate of the year, m3/s", flow),
         positive("Ks", "Strickler's coefficient of the bed, m^(1/3)/s", strength),

@@ -1,7 +1,7 @@
 //! The parts that functions with known indices are made of.
 
 use super::Exact;
-use crate::space::Distribution;
+use crate::space::{Distribution, DistributionError};
 use apportion_base::quantity::Domain;
 
 /// An input of a function.
@@ -41,13 +41,9 @@ impl Made {
 
 /// Returns inputs x1 to xd of one distribution.
 pub(super) fn alike(count: usize, description: &str, distribution: &Distribution) -> Vec<KnownInput> {
-    let input = |number| KnownInput {
-        name: format!("x{number}"),
-        description: description.to_owned(),
-        domain: None,
-        distribution: distribution.clone(),
-    };
-    (1..=count).map(input).collect()
+    let (description, domain, distribution) = (description.to_owned(), None, distribution.clone());
+    let first = KnownInput { name: String::new(), description, domain, distribution };
+    (1..=count).map(|number| KnownInput { name: format!("x{number}"), ..first.clone() }).collect()
 }
 
 /// Returns inputs x1 to xd, uniform on (0, 1).
@@ -61,10 +57,18 @@ pub(super) fn positive(name: &str, description: &str, distribution: Distribution
     KnownInput { name, description, domain: Some(Domain::Positive), distribution }
 }
 
-/// Returns a uniform distribution between two constants of the program.
+/// Returns a distribution whose parameters are constants of the program.
 ///
 /// # Panics
-/// If they are not in order.
+/// If they are invalid.
+pub(super) fn constant(distribution: Result<Distribution, DistributionError>) -> Distribution {
+    distribution.expect("valid constants")
+}
+
 pub(super) fn uniform(min: f64, max: f64) -> Distribution {
-    Distribution::uniform(min, max).expect("bounds in order")
+    constant(Distribution::uniform(min, max))
+}
+
+pub(super) fn triangular(min: f64, mode: f64, max: f64) -> Distribution {
+    constant(Distribution::triangular(min, mode, max))
 }

@@ -32,7 +32,7 @@ pub use exact::{Basis, Exact, ExactIndices};
 pub use function::KnownInput;
 use function::{Made, Value};
 pub use model::{known_inputs, known_model, known_output};
-use parameters::Given;
+use parameters::ParameterReader;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
 use apportion_base::quantity::Domain;
@@ -70,7 +70,7 @@ pub struct KnownAnswer {
     pub source: &'static str,
     /// The parameters, in the order in which they are shown.
     pub parameters: &'static [ParameterInfo],
-    build: fn(&mut Given<'_>) -> Result<Made, ParameterError>,
+    build: fn(&mut ParameterReader<'_>) -> Result<Made, ParameterError>,
 }
 
 impl KnownAnswer {
@@ -102,15 +102,15 @@ impl KnownAnswer {
     /// # Errors
     /// [`ParameterError`] if the function has no such parameter, or the value is invalid.
     pub fn with(&'static self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
-        let is_known = |name: &String| self.parameters.iter().any(|parameter| parameter.name == name);
-        if let Some((name, _)) = parameters.iter().find(|(name, _)| !is_known(name)) {
-            return Err(ParameterError::unknown(name));
+        for (name, _) in parameters {
+            if self.parameters.iter().all(|parameter| parameter.name != name) {
+                return Err(ParameterError::unknown(name));
+            }
         }
-        let mut given = Given::new(parameters);
-        let Made { inputs, exact, value } = (self.build)(&mut given)?;
-        let domain = |(number, input): (usize, &KnownInput)| Some((number, input.domain?));
-        let domains = inputs.iter().enumerate().filter_map(domain).collect();
-        let (inputs, parameters) = (inputs.into(), given.in_force.into());
+        let mut reader = ParameterReader::new(parameters);
+        let Made { inputs, exact, value } = (self.build)(&mut reader)?;
+        let domains = inputs.iter().enumerate().filter_map(|(number, input)| Some((number, input.domain?))).collect();
+        let (inputs, parameters) = (inputs.into(), reader.in_force.into());
         Ok(KnownFunction { answer: self, inputs, domains, parameters, exact: exact.into(), value: value.into() })
     }
 
@@ -157,11 +157,11 @@ impl KnownFunction {
     /// # Errors
     /// Why there is none, if the function can tell.
     pub fn checked_value(&self, x: &[f64]) -> Result<f64, &'static str> {
-        let is_outside = |(input, domain): &(usize, Domain)| !domain.contains(x[*input]);
-        if self.domains.iter().any(is_outside) { Err("an input is not positive") } else { (self.value)(x) }
+        let are_inside = self.domains.iter().all(|(input, domain)| domain.contains(x[*input]));
+        if are_inside { (self.value)(x) } else { Err("an input is not positive") }
     }
 
-    /// Returns mean, variance and indices for independent inputs with their own distributions.
+    /// Returns mean, variance and indices for independent inputs with their distributions.
     pub fn exact(&self) -> Exact {
         Exact::clone(&self.exact)
     }

@@ -16,7 +16,9 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
         let mut all = Vec::new();
         if !drives_all {
             all.clone_from(&base);
-            factors.iter().zip(x).for_each(|(input, value)| all[*input] = *value);
+            for (input, value) in factors.iter().zip(x) {
+                all[*input] = *value;
+            }
         }
         let x = if drives_all { x } else { &all };
         function.checked_value(x).map(|value| y[0] = value).map_err(RowFailure::new)
@@ -26,14 +28,14 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
 /// Returns the inputs of a function with its parameters chosen. An input that is not a factor is fixed at its upper
 /// quartile: at the median, many functions hide the effect of other inputs (Sobol' G with a_1 = 0 is 0).
 pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
-    let input = |input: &KnownInput| Input {
-        symbol: input.name.clone(),
-        name: input.name.clone(),
+    let inputs = function.inputs().iter().map(|KnownInput { name, description, domain, distribution }| Input {
+        symbol: name.clone(),
+        name: name.clone(),
         unit: Unit::dimensionless(),
-        nominal: input.distribution.quantile(0.75),
-        domain: input.domain,
-        description: input.description.clone(),
-        distribution: Some(input.distribution.clone()),
-    };
-    function.inputs().iter().map(input).collect()
+        nominal: distribution.quantile(0.75),
+        domain: *domain,
+        description: description.clone(),
+        distribution: Some(distribution.clone()),
+    });
+    inputs.collect()
 }

@@ -63,17 +63,25 @@ fn value(x: &[f64]) -> f64 {
 fn exact() -> Exact {
     let log = libm::log(11f64);
     let (e1, e2) = (1.0 - 0.1 * log, 1.0 - 0.2 * log + 0.01 * (10.0 - 1.0 / 1.1));
-    let m = |i| if bent(i) { 2.0 * (1.1 * e1 - 0.5) } else { 0.0 };
-    let v = |i| if bent(i) { 4.0 * 1.21 * (e2 - e1 * e1) } else { 1.0 / 3.0 };
+    let mut means = [0.0; INPUTS];
+    let mut variances = [1.0 / 3.0; INPUTS];
+    for i in (0..INPUTS).filter(|i| bent(*i)) {
+        means[i] = 2.0 * (1.1 * e1 - 0.5);
+        variances[i] = 4.0 * 1.21 * (e2 - e1 * e1);
+    }
     let terms = terms();
-    let product = |set: &[usize], of: &dyn Fn(usize) -> f64| set.iter().map(|&i| of(i)).product::<f64>();
-    let centred = |set: &[usize]| -> f64 {
-        let wider = terms.iter().filter(|(term, _)| set.iter().all(|i| term.contains(i)));
-        let rest = |term: &[usize]| term.iter().copied().filter(|i| !set.contains(i)).collect::<Vec<_>>();
-        wider.map(|(term, b)| b * product(&rest(term), &m)).sum()
-    };
-    let parts: Vec<_> = terms.iter().map(|(set, _)| (set.clone(), centred(set).powi(2) * product(set, &v))).collect();
-    Exact::of_parts(centred(&[]), INPUTS, &parts)
+    let mut parts = Vec::with_capacity(terms.len());
+    for (set, _) in &terms {
+        let variance = set.iter().map(|&i| variances[i]).product::<f64>();
+        parts.push((set.clone(), coefficient(set, &terms, &means).powi(2) * variance));
+    }
+    Exact::of_parts(coefficient(&[], &terms, &means), INPUTS, &parts)
+}
+
+/// Returns the coefficient C_u of the product of the centred w_i of `set`, u.
+fn coefficient(set: &[usize], terms: &[(Vec<usize>, f64)], means: &[f64; INPUTS]) -> f64 {
+    let wider = terms.iter().filter(|(term, _)| set.iter().all(|i| term.contains(i)));
+    wider.map(|(term, b)| b * term.iter().filter(|i| !set.contains(i)).map(|&i| means[i]).product::<f64>()).sum()
 }
 
 /// Returns every term with its inputs and its coefficient; each subset of a term's inputs is a separate term.

@@ -56,15 +56,15 @@ fn value(x: &[f64]) -> f64 {
 fn exact() -> Exact {
     let c = &*CONSTANTS;
     let e = libm::exp(-0.5f64);
-    let m = |i: usize, j: usize| c.m[i * INPUTS + j];
+    let rows: Vec<&[f64]> = c.m.chunks_exact(INPUTS).collect();
     let mut parts = Vec::new();
     let mut mean = 0.0;
-    for i in 0..INPUTS {
-        let (a1, a2, a3, mii) = (c.a1[i], c.a2[i], c.a3[i], m(i, i));
+    for (i, row) in rows.iter().enumerate() {
+        let (a1, a2, a3, mii) = (c.a1[i], c.a2[i], c.a3[i], row[i]);
         mean += e * a3 + mii;
         let squares = a1 * a1 + a2 * a2 * (1.0 - e.powi(4)) / 2.0 + a3 * a3 * ((1.0 + e.powi(4)) / 2.0 - e * e);
         parts.push((vec![i], squares + 2.0 * mii * mii + 2.0 * e * (a1 * a2 - a3 * mii)));
-        parts.extend((i + 1..INPUTS).map(|j| (vec![i, j], (m(i, j) + m(j, i)).powi(2))));
+        parts.extend((i + 1..INPUTS).map(|j| (vec![i, j], (row[j] + rows[j][i]).powi(2))));
     }
     Exact::of_parts(mean, INPUTS, &parts)
 }

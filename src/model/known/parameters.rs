@@ -82,13 +82,13 @@ const INPUTS: Range = (|x| (1.0..=MAX_INPUTS as f64).contains(&x) && x.fract() =
 pub(super) type PerInput<'a> = (&'static str, &'a [f64], Range);
 
 /// The given parameters, read by the functions.
-pub(super) struct Given<'a> {
+pub(super) struct ParameterReader<'a> {
     given: &'a [(String, ParameterValue)],
     /// Those read so far, given or default.
     pub in_force: Vec<(&'static str, ParameterValue)>,
 }
 
-impl<'a> Given<'a> {
+impl<'a> ParameterReader<'a> {
     pub(super) fn new(parameters: &'a [(String, ParameterValue)]) -> Self {
         Self { given: parameters, in_force: Vec::new() }
     }

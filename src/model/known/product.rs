@@ -16,16 +16,14 @@ pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     ],
     build: |given| {
         let [mu, sigma] = given.per_input([("mu", &[1.0, 2.0, 3.0][..], FINITE), ("sigma", &[0.5], POSITIVE)])?;
-        let input = |(number, (&mu, &sigma)): (usize, (&f64, &f64))| {
-            let refused = |_| ParameterError::out_of_range("sigma", sigma, "small enough for finite values");
-            Ok(KnownInput {
-                name: format!("x{}", number + 1),
-                description: format!("normal of mean {mu} and standard deviation {sigma}"),
-                domain: None,
-                distribution: Distribution::normal(mu, sigma).map_err(refused)?,
-            })
-        };
-        let inputs = mu.iter().zip(&sigma).enumerate().map(input).collect::<Result<_, _>>()?;
+        let mut inputs = Vec::with_capacity(mu.len());
+        for (number, (&mu, &sigma)) in mu.iter().zip(&sigma).enumerate() {
+            let Ok(distribution) = Distribution::normal(mu, sigma) else {
+                return Err(ParameterError::out_of_range("sigma", sigma, "small enough for finite values"));
+            };
+            let description = format!("normal of mean {mu} and standard deviation {sigma}");
+            inputs.push(KnownInput { name: format!("x{}", number + 1), description, domain: None, distribution });
+        }
         Ok(Made::new(inputs, exact(&mu, &sigma), value))
     },
 };
@@ -45,17 +43,18 @@ fn exact(mu: &[f64], sigma: &[f64]) -> Exact {
     let r: Vec<f64> = sigma.iter().zip(mu).map(|(sigma, mu)| (sigma / mu).powi(2)).collect();
     let t: Vec<f64> = r.iter().map(|&r| if r.is_infinite() { 1.0 } else { r / (1.0 + r) }).collect();
     // prod c_j over all but one input, by a count of zeros and the logarithm of the others.
-    let log = |r: f64| if r.is_infinite() { 0.0 } else { -libm::log1p(r) };
     let zeros = r.iter().filter(|r| r.is_infinite()).count();
-    let logs: f64 = r.iter().map(|&r| log(r)).sum();
-    let others = |i: usize| {
-        let zeros = zeros - usize::from(r[i].is_infinite());
-        if zeros > 0 { 0.0 } else { libm::exp(logs - log(r[i])) }
-    };
-    let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
+    let logs: Vec<f64> = r.iter().map(|r| if r.is_infinite() { 0.0 } else { -libm::log1p(*r) }).collect();
+    let sum: f64 = logs.iter().sum();
+    let varying = if zeros > 0 { 1.0 } else { -libm::expm1(sum) };
     let squares: f64 = sigma.iter().zip(mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
     let mean = mu.iter().product();
-    let first = (0..r.len()).map(|i| t[i] * others(i) / varying).collect();
+    let mut first = vec![0.0; r.len()];
+    for (i, first) in first.iter_mut().enumerate() {
+        let other_zeros = zeros - usize::from(r[i].is_infinite());
+        let others = if other_zeros > 0 { 0.0 } else { libm::exp(sum - logs[i]) };
+        *first = t[i] * others / varying;
+    }
     let total = t.iter().map(|t| t / varying).collect();
     Exact::closed(mean, squares * varying, first, total)
 }

@@ -25,8 +25,7 @@ pub(super) const ENTRY: KnownAnswer = KnownAnswer {
 };
 
 fn value(c: &[f64], t: &[f64], x: &[f64]) -> f64 {
-    let step = |x: f64, c: f64, t: f64| 1.0 + if x > t { c * t } else { c * (t - 1.0) };
-    x.iter().zip(c).zip(t).map(|((&x, &c), &t)| step(x, c, t)).product()
+    x.iter().zip(c).zip(t).map(|((x, c), t)| 1.0 + if x > t { c * t } else { c * (t - 1.0) }).product()
 }
 
 /// prod (1 + c_i (H(x_i - t_i) - 1 + t_i)), x uniform on (0, 1)^d.

@@ -18,14 +18,7 @@ pub fn differences(journal: &Value, study: &Value) -> Vec<String> {
 fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
     match (journal, study) {
         (Value::Object(a), Value::Object(b)) => {
-            let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
-            // A digest only shows that something differs; it is reported if no other difference is found.
-            let (digests, others): (Vec<_>, Vec<_>) = keys.partition(|key| *key == "digest");
-            let before = found.len();
-            for name in others.into_iter().chain(digests) {
-                if name == "digest" && found.len() > before {
-                    continue;
-                }
+            for name in a.keys().chain(b.keys().filter(|key| !a.contains_key(*key))) {
                 let inner = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
                 compare(&inner, a.get(name).unwrap_or(&Value::Null), b.get(name).unwrap_or(&Value::Null), found);
             }

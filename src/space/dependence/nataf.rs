@@ -32,10 +32,10 @@ const FARTHEST: f64 = 8.5;
 /// error falls faster than any power of the distance of nodes.
 fn nodes(count: usize) -> Vec<(f64, f64)> {
     let step = 2.0 * FARTHEST / count as f64;
-    let place = |k: usize| -FARTHEST + step * (k as f64 + 0.5);
-    let weights: Vec<f64> = (0..count).map(|k| libm::exp(-0.5 * place(k) * place(k))).collect();
+    let places: Vec<f64> = (0..count).map(|k| -FARTHEST + step * (k as f64 + 0.5)).collect();
+    let weights: Vec<f64> = places.iter().map(|place| libm::exp(-0.5 * place * place)).collect();
     let sum: f64 = weights.iter().sum();
-    weights.iter().enumerate().map(|(k, weight)| (place(k), weight / sum)).collect()
+    places.into_iter().zip(weights).map(|(place, weight)| (place, weight / sum)).collect()
 }
 
 fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> {
@@ -43,14 +43,9 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
     if stated == 0.0 || matches!((x, y), (Distribution::Normal(_), Distribution::Normal(_))) {
         return Ok(stated);
     }
-    let standardised = |law: &'_ Distribution| {
-        let (law, mean, sd) = (law.clone(), law.mean(), law.sd());
-        move |score: f64| (law.quantile(from_score(score)) - mean) / sd
-    };
-    let [x, y] = [x, y].map(standardised);
+    let [x, y] = [x, y].map(|law| Standardised { distribution: law, mean: law.mean(), sd: law.sd() });
     let line = nodes(LINE);
-    let extreme = |sign: f64| line.iter().map(|(z, w)| w * x(*z) * y(sign * z)).sum::<f64>();
-    let (low, high) = (extreme(-1.0), extreme(1.0));
+    let [low, high] = [-1.0, 1.0].map(|sign| line.iter().map(|(z, w)| w * x.at(*z) * y.at(sign * z)).sum::<f64>());
     if !(low < stated && stated < high) {
         return refused(format!(
             "`{}` and `{}` cannot have a Pearson correlation of {stated}: their distributions allow {low:.4} to {high:.4}",
@@ -58,18 +53,13 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
         ));
     }
     let plane = nodes(PLANE);
-    let of_x: Vec<f64> = plane.iter().map(|(z, _)| x(*z)).collect();
-    let correlation = |r: f64| {
-        let rest = (1.0 - r * r).sqrt();
-        let inner = |z: f64| plane.iter().map(|(v, w)| w * y(r * z + rest * v)).sum::<f64>();
-        plane.iter().zip(&of_x).map(|((z, w), x)| w * x * inner(*z)).sum::<f64>()
-    };
+    let of_x: Vec<f64> = plane.iter().map(|(z, _)| x.at(*z)).collect();
     // The correlation rises with r (Lancaster 1957): a secant that keeps its bracket, the end that stays twice counting half.
     let (mut left, mut right) = ((-1.0, low - stated), (1.0, high - stated));
     let mut last = 0.0;
     for _ in 0..60 {
         let r: f64 = (left.0 - left.1 * (right.0 - left.0) / (right.1 - left.1)).clamp(left.0, right.0);
-        let gap = correlation(r) - stated;
+        let gap = correlation(r, &plane, &of_x, &y) - stated;
         if gap.abs() < 1e-9 || right.0 - left.0 < 1e-9 {
             return Ok(r);
         }
@@ -83,4 +73,28 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
         last = gap;
     }
     Ok(0.5 * (left.0 + right.0))
+}
+
+/// A distribution by normal scores, less its mean and over its standard deviation.
+struct Standardised<'a> {
+    distribution: &'a Distribution,
+    mean: f64,
+    sd: f64,
+}
+
+impl Standardised<'_> {
+    fn at(&self, score: f64) -> f64 {
+        (self.distribution.quantile(from_score(score)) - self.mean) / self.sd
+    }
+}
+
+/// Returns the correlation of two standardised distributions whose scores have the correlation `r`; `of_x` is the first
+/// at the nodes of `plane`.
+fn correlation(r: f64, plane: &[(f64, f64)], of_x: &[f64], y: &Standardised<'_>) -> f64 {
+    let rest = (1.0 - r * r).sqrt();
+    let mut sum = 0.0;
+    for ((z, w), x) in plane.iter().zip(of_x) {
+        sum += w * x * plane.iter().map(|(v, w)| w * y.at(r * z + rest * v)).sum::<f64>();
+    }
+    sum
 }

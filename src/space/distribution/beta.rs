@@ -76,7 +76,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "beta",
     summary: "The beta distribution between two bounds.",
-    ways: &[keys(&["alpha", "beta", "min", "max"]), keys(&["mean", "sd", "min", "max"])],
+    key_sets: &[keys(&["alpha", "beta", "min", "max"]), keys(&["mean", "sd", "min", "max"])],
     defaults: &[("min", 0.0), ("max", 1.0)],
     build: |given| {
         let (min, max) = (given.number("min")?, given.number("max")?);
@@ -121,10 +121,6 @@ impl Family for Beta {
             self.min + self.width * (self.alpha / (self.alpha + self.beta)),
             self.width * (self.alpha * self.beta / (sum + 1.0)).sqrt() / sum,
         )
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

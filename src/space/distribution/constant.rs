@@ -29,7 +29,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "constant",
     summary: "One value with certainty.",
-    ways: &[keys(&["value"])],
+    key_sets: &[keys(&["value"])],
     build: |given| Distribution::constant(given.number("value")?),
     ..PLAIN
 }];
@@ -45,10 +45,6 @@ impl Family for Constant {
 
     fn moments(&self) -> (f64, f64) {
         (self.value, 0.0)
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.value, self.value)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

@@ -41,7 +41,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "exponential",
     summary: "Waiting times between random events.",
-    ways: &[
+    key_sets: &[
         keys(&["scale"]).perhaps(&["location"]),
         solved_keys(&["mean"]).perhaps(&["location"]),
         MOMENTS,
@@ -69,10 +69,6 @@ impl Family for Exponential {
 
     fn moments(&self) -> (f64, f64) {
         (self.location + self.scale, self.scale)
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

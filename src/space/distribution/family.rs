@@ -1,57 +1,8 @@
 //! The interface of a family of distributions.
 
-use serde::Serialize;
-use serde::ser::{SerializeSeq, Serializer};
-
-use super::keys::{Entry, in_si};
-use super::{Distribution, DistributionError, MeasuredFile};
+use super::entry::{Entry, in_si};
+use super::{Distribution, DistributionError, Parameter};
 use apportion_base::quantity::Unit;
-
-/// A parameter as in a study file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Parameter {
-    /// A number.
-    Number(f64),
-    /// A list of numbers.
-    List(Vec<f64>),
-    /// A text.
-    Text(String),
-    /// A list of texts.
-    Texts(Vec<String>),
-    /// Two bounds, one of which may be infinite and is then written as a text: `[2.0, "inf"]`.
-    #[serde(serialize_with = "bounds")]
-    Bounds(f64, f64),
-    /// Values by their probabilities; results contain the bins between them.
-    #[serde(skip)]
-    Quantiles(Vec<(f64, f64)>),
-    /// Measured values and the file that they come from; results contain the name of the file.
-    #[serde(skip)]
-    Measured(Vec<f64>, MeasuredFile),
-}
-
-fn bounds<S: Serializer>(min: &f64, max: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut list = serializer.serialize_seq(Some(2))?;
-    for bound in [min, max] {
-        match bound.is_finite() {
-            true => list.serialize_element(bound)?,
-            false => list.serialize_element(if *bound > 0.0 { "inf" } else { "-inf" })?,
-        }
-    }
-    list.end()
-}
-
-impl From<f64> for Parameter {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<&[f64]> for Parameter {
-    fn from(list: &[f64]) -> Self {
-        Self::List(list.to_vec())
-    }
-}
 
 /// One family; [`Distribution`] describes each of these. A family has [`quantile`](Self::quantile) or [`at`](Self::at).
 pub(super) trait Family {
@@ -61,13 +12,14 @@ pub(super) trait Family {
     fn moments(&self) -> (f64, f64);
     fn parameters(&self) -> Vec<(&'static str, Parameter)>;
 
+    /// Returns the smallest closed interval that contains every value: by default the range of the quantiles.
     fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+        (self.quantile(0.0), self.quantile(1.0))
     }
 
-    /// Returns its name in study files; `own` is that of its first entry.
-    fn name(&self, own: &'static str) -> &'static str {
-        own
+    /// Returns its name in study files; `default` is that of its first entry.
+    fn name(&self, default: &'static str) -> &'static str {
+        default
     }
 
     /// Returns the quantile at `u`, `v` being 1 - `u`, to full precision if either is small.
@@ -91,8 +43,8 @@ pub(super) trait Family {
     }
 
     /// Returns the same quantity in SI, without a check of its variance: a truncated part may have one.
-    fn in_si(&self, own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
-        in_si(own, self.parameters(), unit)
+    fn in_si(&self, entry: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+        in_si(entry, self.parameters(), unit)
     }
 
     /// Refuses parameters for which there is no variance.

@@ -4,6 +4,7 @@
 
 use super::prelude::*;
 use super::solve::{halley, parabola};
+use apportion_base::special::away_from_zero;
 
 /// Shapes outside are refused: the series would need thousands of terms, or all values are next to 0.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
@@ -54,7 +55,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "gamma",
     summary: "Sums of waiting times, and positive quantities of moderate scatter.",
-    ways: &[
+    key_sets: &[
         keys(&["shape", "scale"]).perhaps(&["location"]),
         MOMENTS.perhaps(&["location"]),
         TWO_QUANTILES.perhaps(&["location"]),
@@ -77,10 +78,6 @@ impl Family for Gamma {
 
     fn moments(&self) -> (f64, f64) {
         (self.location + self.shape * self.scale, self.scale * self.shape.sqrt())
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
@@ -200,17 +197,15 @@ fn series(a: f64, x: f64) -> f64 {
 /// Recipes, section 6.2).
 fn continued_fraction(a: f64, x: f64) -> f64 {
     const TERMS: u32 = 5000;
-    const TINY: f64 = 1e-300;
-    let away = |value: f64| if value.abs() < TINY { TINY } else { value };
     let mut b = x + 1.0 - a;
-    let mut c = 1.0 / TINY;
-    let mut d = away(b).recip();
+    let mut c = 1.0 / 1e-300;
+    let mut d = away_from_zero(b).recip();
     let mut fraction = d;
     for n in (1..=TERMS).map(f64::from) {
         let numerator = -n * (n - a);
         b += 2.0;
-        d = away(numerator * d + b).recip();
-        c = away(b + numerator / c);
+        d = away_from_zero(numerator * d + b).recip();
+        c = away_from_zero(b + numerator / c);
         let change = c * d;
         fraction *= change;
         if (change - 1.0).abs() < f64::EPSILON {

@@ -49,7 +49,7 @@ impl Gumbel {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "gumbel",
     summary: "The largest of many values.",
-    ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
     make: |_, [location, scale, _]| Distribution::gumbel(location, scale),
     build: |given| Distribution::gumbel(given.number("location")?, given.number("scale")?),
     ..PLAIN

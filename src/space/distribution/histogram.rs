@@ -66,7 +66,7 @@ impl Distribution {
         Self::Histogram(Histogram { edges: edges.to_vec(), weights: weights.to_vec(), bins }).finite()
     }
 
-    /// Returns the histogram whose bins are between known quantiles: pairs of a probability and the value below which
+    /// Returns the histogram whose bins are between quantiles: pairs of a probability and the value below which
     /// this share of all values lies. The distribution function is linear between them.
     ///
     /// # Errors
@@ -82,34 +82,35 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn histogram_of_quantiles(quantiles: &[(f64, f64)]) -> Result<Self, DistributionError> {
-        let wrong = |found: String| {
-            let example = r#"{ "0" = 1, "0.5" = 2, "1" = 5 }"#;
-            let must = "must have increasing values for probabilities from 0 to 1, including 0 and 1";
-            Err(refused("quantiles", format!("`quantiles` has {found}, but {must}, as in {example}")))
-        };
         let mut quantiles = quantiles.to_vec();
         quantiles.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((p, _)) = quantiles.iter().find(|(p, _)| !(0.0..=1.0).contains(p)) {
-            return wrong(format!("the probability {p}"));
+            return Err(wrong_quantiles(format!("the probability {p}")));
         }
         for end in [0.0, 1.0] {
             if quantiles.iter().all(|(p, _)| *p != end) {
-                return wrong(format!("no value for the probability {end}"));
+                return Err(wrong_quantiles(format!("no value for the probability {end}")));
             }
         }
         for pair in quantiles.windows(2) {
             let [(p, low), (q, high)] = [pair[0], pair[1]];
             if p == q {
-                return wrong(format!("two values for the probability {p}"));
+                return Err(wrong_quantiles(format!("two values for the probability {p}")));
             }
             if low >= high {
-                return wrong(format!("{low} for the probability {p} and {high} for {q}"));
+                return Err(wrong_quantiles(format!("{low} for the probability {p} and {high} for {q}")));
             }
         }
         let edges: Vec<f64> = quantiles.iter().map(|(_, value)| *value).collect();
         let weights: Vec<f64> = quantiles.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
         Self::histogram(&edges, &weights)
     }
+}
+
+fn wrong_quantiles(problem: String) -> DistributionError {
+    let example = r#"{ "0" = 1, "0.5" = 2, "1" = 5 }"#;
+    let must = "must have increasing values for probabilities from 0 to 1, including 0 and 1";
+    refused("quantiles", format!("`quantiles` has {problem}, but {must}, as in {example}"))
 }
 
 impl Histogram {
@@ -122,7 +123,7 @@ impl Histogram {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "histogram",
     summary: "Bins of constant density.",
-    ways: &[keys(&["edges", "weights"]), keys(&["quantiles"])],
+    key_sets: &[keys(&["edges", "weights"]), keys(&["quantiles"])],
     build: |given| match given.get("quantiles") {
         Some(Parameter::Quantiles(quantiles)) => Distribution::histogram_of_quantiles(quantiles),
         _ => Distribution::histogram(given.list("edges")?, given.list("weights")?),
@@ -153,11 +154,11 @@ impl Family for Histogram {
 
     fn moments(&self) -> (f64, f64) {
         let mean = self.bins.iter().map(|bin| bin.probability * (0.5 * bin.min + 0.5 * bin.max)).sum::<f64>();
-        let variance = |bin: &Bin| {
+        let variances = self.bins.iter().map(|bin| {
             let (deviation, width) = (0.5 * bin.min + 0.5 * bin.max - mean, bin.max - bin.min);
             bin.probability * (deviation * deviation + width * width / 12.0)
-        };
-        (mean, self.bins.iter().map(variance).sum::<f64>().sqrt())
+        });
+        (mean, variances.sum::<f64>().sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -51,11 +51,8 @@ impl Integer {
 
     /// Returns the values in ascending order, each with a `u` at which it is the quantile; `None` for more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
-        let level = |k: u32| {
-            let k = f64::from(k);
-            (self.min + k, (k + 0.5) / self.count)
-        };
-        (self.count <= Self::MAX_LEVELS).then(|| (0..self.count as u32).map(level).collect())
+        let numbers = (0..self.count as u32).map(f64::from);
+        (self.count <= Self::MAX_LEVELS).then(|| numbers.map(|k| (self.min + k, (k + 0.5) / self.count)).collect())
     }
 
     fn max(&self) -> f64 {
@@ -66,7 +63,7 @@ impl Integer {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "integer",
     summary: "Whole numbers from `min` to `max`, both included, equally likely.",
-    ways: &[keys(&["min", "max"])],
+    key_sets: &[keys(&["min", "max"])],
     build: |given| Distribution::integer(given.number("min")?, given.number("max")?),
     ..PLAIN
 }];
@@ -84,10 +81,6 @@ impl Family for Integer {
 
     fn moments(&self) -> (f64, f64) {
         (self.min + (self.count - 1.0) / 2.0, ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt())
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max())
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

@@ -76,7 +76,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "log-normal",
     summary: "The logarithm is normal.",
-    ways: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), TWO_QUANTILES],
+    key_sets: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), TWO_QUANTILES],
     of_ratios: true,
     shape: Shape::Between(1e-9, 26.0, 500),
     make: |_, [_, median, log_sd]| Distribution::log_normal_of_logs(libm::log(median), log_sd),

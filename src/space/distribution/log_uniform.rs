@@ -50,7 +50,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "log-uniform",
     summary: "The logarithm is uniform: every decade between two bounds is equally likely.",
-    ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
     shape: Shape::Between(1e-9, 700.0, 500),
     make: |_, [_, min, log]| Distribution::log_uniform(min, min * libm::exp(log)),
@@ -65,9 +65,10 @@ impl Family for LogUniform {
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let part = |from: f64, to: f64| libm::log1p((to - from) / from) / (2.0 * self.half);
         let x = x.clamp(self.min, self.max);
-        (part(self.min, x).min(1.0), part(x, self.max).min(1.0))
+        let parts =
+            [(self.min, x), (x, self.max)].map(|(from, to)| libm::log1p((to - from) / from) / (2.0 * self.half));
+        (parts[0].min(1.0), parts[1].min(1.0))
     }
 
     fn moments(&self) -> (f64, f64) {

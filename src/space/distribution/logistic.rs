@@ -42,7 +42,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "logistic",
     summary: "Like a normal distribution, with longer tails.",
-    ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
     make: |_, [location, scale, _]| Distribution::logistic(location, scale),
     build: |given| Distribution::logistic(given.number("location")?, given.number("scale")?),
     ..PLAIN

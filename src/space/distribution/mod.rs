@@ -10,6 +10,7 @@
 
 mod beta;
 mod constant;
+mod entry;
 mod error;
 mod exponential;
 mod family;
@@ -18,10 +19,12 @@ mod gumbel;
 mod histogram;
 mod integer;
 mod keys;
+mod kind;
 mod log_normal;
 mod log_uniform;
 mod logistic;
 mod normal;
+mod parameter;
 mod pareto;
 mod pert;
 mod poisson;
@@ -38,11 +41,12 @@ mod weibull;
 
 pub use error::DistributionError;
 use family::Family;
-pub use family::Parameter;
-pub use keys::{Argument, KEYS, Key, KeyKind, Kind};
+pub use keys::{KEYS, Key, KeyKind};
+pub use kind::{Argument, Kind};
+pub use parameter::{MeasuredFile, Parameter};
 pub(crate) use seed::{mixed, seed_of};
 use serde::ser::{Serialize, SerializeMap, Serializer};
-pub use values::{MeasuredFile, Values};
+pub use values::Values;
 
 use apportion_base::quantity::Unit;
 
@@ -53,10 +57,10 @@ pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// Imports for the file of a family.
 mod prelude {
+    pub(super) use super::entry::*;
     pub(super) use super::error::*;
-    pub(super) use super::family::{Family, Parameter};
-    pub(super) use super::keys::*;
-    pub(super) use super::solved::Shape;
+    pub(super) use super::family::Family;
+    pub(super) use super::parameter::{MeasuredFile, Parameter};
     pub(super) use super::{Distribution, DistributionError};
 }
 
@@ -86,7 +90,7 @@ macro_rules! families {
         }
 
         /// The entries of the families in study files, the default first.
-        static ENTRIES: &[&[keys::Entry]] = &[$($module::$entries),+];
+        static ENTRIES: &[&[entry::Entry]] = &[$($module::$entries),+];
 
         impl Distribution {
             fn family(&self) -> &dyn Family {
@@ -94,7 +98,7 @@ macro_rules! families {
             }
 
             /// Returns the first entry of its family.
-            fn entry(&self) -> &'static keys::Entry {
+            fn entry(&self) -> &'static entry::Entry {
                 match self { $(Self::$variant(_) => &$module::$entries[0]),+ }
             }
         }
@@ -138,7 +142,7 @@ impl Distribution {
         self.family().quantile(u)
     }
 
-    /// Computes the quantiles of a whole column: `out[i] = quantile(u[i])`, with the same bits.
+    /// Computes the quantiles of a column: `out[i] = quantile(u[i])`, with the same bits.
     ///
     /// # Panics
     ///

@@ -44,7 +44,7 @@ impl Normal {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "normal",
     summary: "The normal (Gaussian) distribution.",
-    ways: &[keys(&["mean", "sd"]), TWO_QUANTILES],
+    key_sets: &[keys(&["mean", "sd"]), TWO_QUANTILES],
     make: |_, [mean, sd, _]| Distribution::normal(mean, sd),
     build: |given| Distribution::normal(given.number("mean")?, given.number("sd")?),
     ..PLAIN

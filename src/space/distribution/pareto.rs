@@ -45,7 +45,7 @@ impl Pareto {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "pareto",
     summary: "A power law above a smallest value.",
-    ways: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
     shape: Shape::Between(1e6, 2.0001, 500),
     make: |_, [_, min, shape]| Distribution::pareto(shape, min),
@@ -76,10 +76,6 @@ impl Family for Pareto {
             self.min * (self.shape / (self.shape - 1.0)),
             self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt(),
         )
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.min, f64::INFINITY)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

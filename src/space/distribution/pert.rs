@@ -36,8 +36,8 @@ impl Distribution {
         let width = bounds(min, max, "pert")?;
         let must = format!("lie between `min` ({min}) and `max` ({max})");
         number("mode", mode, (min..=max).contains(&mode), &must)?;
-        let shape = |part: f64| 1.0 + 4.0 * part / width;
-        let law = Box::new(Self::beta(shape(mode - min), shape(max - mode), min, max)?);
+        let [alpha, beta] = [mode - min, max - mode].map(|part| 1.0 + 4.0 * part / width);
+        let law = Box::new(Self::beta(alpha, beta, min, max)?);
         Self::Pert(Pert { mode, law }).finite()
     }
 }
@@ -45,7 +45,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "pert",
     summary: "Like a triangular distribution, but smooth: experts' lowest, most likely and highest value.",
-    ways: &[keys(&["min", "mode", "max"])],
+    key_sets: &[keys(&["min", "mode", "max"])],
     build: |given| Distribution::pert(given.number("min")?, given.number("mode")?, given.number("max")?),
     ..PLAIN
 }];
@@ -61,10 +61,6 @@ impl Family for Pert {
 
     fn moments(&self) -> (f64, f64) {
         (self.law.mean(), self.law.sd())
-    }
-
-    fn support(&self) -> (f64, f64) {
-        self.law.support()
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

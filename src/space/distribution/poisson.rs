@@ -1,6 +1,5 @@
 //! The Poisson distribution.
 
-use std::fmt;
 use std::iter::successors;
 use std::sync::Arc;
 
@@ -17,7 +16,7 @@ pub struct Poisson {
 }
 
 /// The probabilities of all numbers that are not negligible.
-#[derive(PartialEq)]
+#[derive(Debug, PartialEq)]
 struct Table {
     first: f64,
     /// P(X <= k) of each.
@@ -26,13 +25,6 @@ struct Table {
     above: Vec<f64>,
     /// The index of the median.
     middle: usize,
-}
-
-// It follows from the mean.
-impl fmt::Debug for Table {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("..")
-    }
 }
 
 impl Distribution {
@@ -77,14 +69,18 @@ impl Poisson {
     }
 
     /// Returns the same, except those that together are rarer than `rare` on either side.
-    pub fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
+    pub(crate) fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
         let table = &self.table;
         let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
-        let level = |place: usize| {
+        if last - first >= Self::MAX_LEVELS {
+            return None;
+        }
+        let mut levels = Vec::with_capacity(last - first + 1);
+        for place in first..=last {
             let low = if place == 0 { 0.0 } else { table.below[place - 1] };
-            (table.first + place as f64, low + (table.below[place] - low) / 2.0)
-        };
-        (last - first < Self::MAX_LEVELS).then(|| (first..=last).map(level).collect())
+            levels.push((table.first + place as f64, low + (table.below[place] - low) / 2.0));
+        }
+        Some(levels)
     }
 }
 
@@ -101,15 +97,8 @@ impl Table {
         let rising = up.skip(1).take_while(|(ratio, _)| *ratio >= MIN_RATIO);
         let probabilities: Vec<f64> = falling.into_iter().chain(rising).map(|(ratio, _)| ratio).collect();
         // From the small ones on either side.
-        let sums = |all: &mut dyn Iterator<Item = &f64>| -> Vec<f64> {
-            all.scan(0.0, |sum, probability| {
-                *sum += probability;
-                Some(*sum)
-            })
-            .collect()
-        };
-        let below = sums(&mut probabilities.iter());
-        let from: Vec<f64> = sums(&mut probabilities.iter().rev()).into_iter().rev().collect();
+        let below = running_sums(probabilities.iter());
+        let from: Vec<f64> = running_sums(probabilities.iter().rev()).into_iter().rev().collect();
         let total = below[below.len() - 1];
         let middle = below.partition_point(|sum| *sum < 0.5 * total);
         let above = from.iter().skip(1).chain([&0.0]).map(|sum| sum / total).collect();
@@ -128,10 +117,21 @@ impl Table {
     }
 }
 
+/// Returns the sum of the first probability, of the first two, and so on.
+fn running_sums<'a>(probabilities: impl Iterator<Item = &'a f64>) -> Vec<f64> {
+    let mut sum = 0.0;
+    probabilities
+        .map(|probability| {
+            sum += probability;
+            sum
+        })
+        .collect()
+}
+
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "poisson",
     summary: "Numbers of random events.",
-    ways: &[keys(&["mean"])],
+    key_sets: &[keys(&["mean"])],
     build: |given| Distribution::poisson(given.number("mean")?),
     ..PLAIN
 }];
@@ -152,10 +152,6 @@ impl Family for Poisson {
 
     fn moments(&self) -> (f64, f64) {
         (self.mean, self.mean.sqrt())
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (0.0, f64::INFINITY)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

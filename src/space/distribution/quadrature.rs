@@ -11,12 +11,12 @@ const NODES: [(f64, f64); 3] = [
 
 /// Returns twice the mean of a smooth function within `half` of `middle`, by the Gauss-Legendre rule of five points.
 fn panel(middle: f64, half: f64, function: &impl Fn(f64) -> f64) -> f64 {
-    let pair = |(node, weight): (f64, f64)| {
+    let pairs = NODES.into_iter().map(|(node, weight)| {
         let sum = function(middle - half * node) + function(middle + half * node);
         // The middle node is counted twice by the pair.
         if node == 0.0 { 0.5 * weight * sum } else { weight * sum }
-    };
-    NODES.into_iter().map(pair).sum::<f64>()
+    });
+    pairs.sum::<f64>()
 }
 
 /// Returns the integral of a smooth function, by the Gauss-Legendre rule of five points on each of 200 panels.

@@ -47,7 +47,7 @@ pub(crate) fn seed_of(mixed: u64) -> f64 {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "seed",
     summary: "The seed of a stochastic model.",
-    ways: &[keys(&[])],
+    key_sets: &[keys(&[])],
     build: |_| Ok(Distribution::seed()),
     ..PLAIN
 }];
@@ -74,7 +74,7 @@ impl Family for Seed {
         Vec::new()
     }
 
-    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != x) {
             let right = ": a seed is a pure number, so leave the unit out";
             return Err(wrong_unit("seed", unit, right));

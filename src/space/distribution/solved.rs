@@ -4,31 +4,18 @@
 //! in location and scale: a location + b scale = value. Two statements determine both; a third one determines the
 //! shape, at which the determinant of the three lines vanishes.
 
+use super::entry::{Arguments, Shape};
 use super::error::{finite, no_such_distribution, order, positive};
-use super::family::Parameter;
-use super::keys::Given;
-use super::{Distribution, DistributionError};
-
-/// The parameter in addition to location and scale.
-pub(super) enum Shape {
-    /// There is none.
-    None,
-    /// It is given under this key.
-    Given(&'static str),
-    /// It is solved for, from the shape of a narrow distribution to that of a wide one, in this many logarithmic steps.
-    Between(f64, f64, u32),
-    /// The share of the width below `mode`, which is given.
-    Mode,
-}
+use super::{Distribution, DistributionError, Parameter};
 
 /// A statement: coefficients of location and scale, and the value.
 type Line = [f64; 3];
 
 /// Returns the distribution with the given mean and standard deviation, or quantiles: the narrowest if there are
 /// several. A family that `begins` at a location does so at `location`, by default 0.
-pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, DistributionError> {
+pub(super) fn solved(given: &Arguments<'_>, begins: bool) -> Result<Distribution, DistributionError> {
     check(given)?;
-    let found = match given.entry.shape {
+    let distribution = match given.entry.shape {
         Shape::None => at(f64::NAN, given, begins),
         Shape::Given(key) => at(given.number(key)?, given, begins),
         Shape::Mode => {
@@ -37,11 +24,10 @@ pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, Di
         }
         Shape::Between(narrow, wide, count) => {
             let logs = evenly(libm::log(narrow), libm::log(wide), count);
-            let determinant = |log: f64| determinant(libm::exp(log), given, begins);
-            first_zero(logs, determinant, |log| at(libm::exp(log), given, begins))
+            first_zero(logs, |log| determinant(libm::exp(log), given, begins), |log| at(libm::exp(log), given, begins))
         }
     };
-    found.ok_or_else(|| {
+    distribution.ok_or_else(|| {
         let words: Vec<String> = given.values.iter().filter_map(in_words).collect();
         let key = given.values.first().map_or("", |(key, _)| *key);
         no_such_distribution(given.entry.name, &words.join(" and "), key)
@@ -49,19 +35,21 @@ pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, Di
 }
 
 /// Returns the distribution of this shape, if it is as stated: to 1e-9 standard deviations, plus rounding of values.
-fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
+fn at(shape: f64, given: &Arguments<'_>, begins: bool) -> Option<Distribution> {
     let (lines, origin) = lines(shape, given, begins)?;
     let (location, scale) = located(&lines)?;
     let place = if begins { given.number_or("location", 0.0) } else { origin + location };
-    let found = (given.entry.make)(given, [place, scale, shape]).ok()?;
-    let tolerance = 1e-9 * found.sd() + 1e-13 * origin.abs();
-    let is_met = |[a, b, value]: Line| (a * location + b * scale - value).abs() <= tolerance + 1e-13 * value.abs();
-    lines.into_iter().all(is_met).then_some(found)
+    let distribution = (given.entry.make)(given, [place, scale, shape]).ok()?;
+    let tolerance = 1e-9 * distribution.sd() + 1e-13 * origin.abs();
+    let mut lines = lines.into_iter();
+    let are_met =
+        lines.all(|[a, b, value]| (a * location + b * scale - value).abs() <= tolerance + 1e-13 * value.abs());
+    are_met.then_some(distribution)
 }
 
 /// Returns the statements as lines for one shape, and the offset subtracted from values to keep digits.
-fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
-    let standard = (given.entry.make)(&Given { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
+fn lines(shape: f64, given: &Arguments<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
+    let standard = (given.entry.make)(&Arguments { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
     let mut lines = Vec::with_capacity(3);
     if begins || given.entry.of_ratios {
         lines.push([1.0, 0.0, given.number_or("location", 0.0)]);
@@ -76,7 +64,7 @@ fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)
 }
 
 /// Returns zero if three statements agree; NaN if the standard distribution does not exist.
-fn determinant(shape: f64, given: &Given<'_>, begins: bool) -> f64 {
+fn determinant(shape: f64, given: &Arguments<'_>, begins: bool) -> f64 {
     let Some((lines, _)) = lines(shape, given, begins) else { return f64::NAN };
     let [a, b, c] = lines[..] else { return f64::NAN };
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
@@ -84,7 +72,7 @@ fn determinant(shape: f64, given: &Given<'_>, begins: bool) -> f64 {
 
 /// Iterates over the given mean, standard deviation and quantiles: whether each moves with the location, its value for
 /// `distribution`, and its given value.
-fn stated(given: &Given<'_>, distribution: &Distribution) -> impl Iterator<Item = (f64, f64, f64)> {
+fn stated(given: &Arguments<'_>, distribution: &Distribution) -> impl Iterator<Item = (f64, f64, f64)> {
     let mean = given.number_if("mean").map(|value| (1.0, distribution.mean(), value));
     let sd = given.number_if("sd").map(|value| (0.0, distribution.sd(), value));
     let quantiles = given.quantiles().map(|(_, probability, value)| (1.0, distribution.quantile(probability), value));
@@ -92,7 +80,7 @@ fn stated(given: &Given<'_>, distribution: &Distribution) -> impl Iterator<Item 
 }
 
 /// Refuses invalid numbers, and quantiles out of order.
-fn check(given: &Given<'_>) -> Result<(), DistributionError> {
+fn check(given: &Arguments<'_>) -> Result<(), DistributionError> {
     for (key, value) in given.values {
         let Parameter::Number(value) = value else { continue };
         finite(key, *value)?;
@@ -137,15 +125,15 @@ fn first_zero<T>(
     for x in grid {
         let y = function(x);
         if y == 0.0
-            && let Some(found) = accept(x)
+            && let Some(accepted) = accept(x)
         {
-            return Some(found);
+            return Some(accepted);
         }
         if let Some((from, start)) = before
             && start * y < 0.0
-            && let Some(found) = accept(bisected((from, start), x, &function))
+            && let Some(accepted) = accept(bisected((from, start), x, &function))
         {
-            return Some(found);
+            return Some(accepted);
         }
         before = y.is_finite().then_some((x, y));
     }

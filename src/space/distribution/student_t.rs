@@ -92,7 +92,7 @@ impl StudentT {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "student-t",
     summary: "Symmetric, with tails that fall by a power.",
-    ways: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
+    key_sets: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
     shape: Shape::Given("df"),
     make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
     defaults: &[("location", 0.0), ("scale", 1.0)],

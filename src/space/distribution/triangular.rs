@@ -59,7 +59,7 @@ impl Triangular {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "triangular",
     summary: "The density rises from `min` to `mode`, and falls to `max`.",
-    ways: &[keys(&["min", "mode", "max"]), two_quantiles_and(&["mode"])],
+    key_sets: &[keys(&["min", "mode", "max"]), two_quantiles_and(&["mode"])],
     shape: Shape::Mode,
     make: |given, [min, width, share]| {
         let max = min + width;

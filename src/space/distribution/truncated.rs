@@ -20,9 +20,9 @@ pub struct Truncated {
     law: Box<Distribution>,
     min: f64,
     max: f64,
-    /// Probability of the whole distribution below `min`.
+    /// Probability below `min` before truncation.
     below: f64,
-    /// Probability of the whole distribution above `max`.
+    /// Probability above `max` before truncation.
     above: f64,
     /// Probability between the bounds.
     mass: f64,
@@ -93,17 +93,8 @@ impl Distribution {
             return Err(refused("truncate", message));
         }
         let (min, max) = (min.max(low), max.min(high));
-        let nothing = || {
-            refused(
-                "truncate",
-                format!(
-                    "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} \
-                     and {max}"
-                ),
-            )
-        };
         if min >= max {
-            return Err(nothing());
+            return Err(nothing_left(distribution, (min, max)));
         }
         match self {
             Self::Uniform(_) => Self::uniform(min, max),
@@ -114,7 +105,8 @@ impl Distribution {
                 if let Self::StudentT(student) = law {
                     student.refuse_one_long_tail((min, max))?;
                 }
-                Self::Truncated(Truncated::new(law, (min, max)).ok_or_else(nothing)?).finite()
+                let truncated = Truncated::new(law, (min, max));
+                Self::Truncated(truncated.ok_or_else(|| nothing_left(distribution, (min, max)))?).finite()
             }
         }
     }
@@ -173,6 +165,14 @@ impl Distribution {
             1.0 - below.0 - above.1
         }
     }
+}
+
+fn nothing_left(distribution: &str, (min, max): (f64, f64)) -> DistributionError {
+    let message = format!(
+        "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} \
+         and {max}"
+    );
+    refused("truncate", message)
 }
 
 impl Normal {
@@ -236,12 +236,13 @@ impl Truncated {
             Distribution::Triangular(triangular) => {
                 // The density is linear on either side of the mode.
                 let mode = triangular.mode().clamp(min, max);
-                let over = |of: &dyn Fn(f64) -> f64| {
-                    let part = |from: f64, to: f64| integral(from, to, |x| triangular.density(x) * of(x)) / mass;
-                    part(min, mode) + part(mode, max)
-                };
-                let mean = mode + over(&|x| x - mode);
-                (mean, over(&|x| (x - mean) * (x - mean)).sqrt())
+                let sides = [(min, mode), (mode, max)];
+                let [below, above] =
+                    sides.map(|(from, to)| integral(from, to, |x| triangular.density(x) * (x - mode)) / mass);
+                let mean = mode + (below + above);
+                let [below, above] = sides
+                    .map(|(from, to)| integral(from, to, |x| triangular.density(x) * ((x - mean) * (x - mean))) / mass);
+                (mean, (below + above).sqrt())
             }
             // Where a density has fallen below exp(-45) of its maximum, it is negligible.
             Distribution::Normal(Normal { mean, sd }) => {
@@ -287,7 +288,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "truncated-normal",
         summary: "Normal between two bounds; mean and standard deviation are those before truncation.",
-        ways: &[keys(&["mean", "sd", "min", "max"])],
+        key_sets: &[keys(&["mean", "sd", "min", "max"])],
         build: |given| {
             let (mean, sd) = (given.number("mean")?, given.number("sd")?);
             Distribution::truncated_normal(mean, sd, given.number("min")?, given.number("max")?)
@@ -297,7 +298,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "truncated-gumbel",
         summary: "Gumbel between two bounds; location and scale are those before truncation.",
-        ways: &[keys(&["location", "scale", "min", "max"])],
+        key_sets: &[keys(&["location", "scale", "min", "max"])],
         build: |given| {
             let (location, scale) = (given.number("location")?, given.number("scale")?);
             Distribution::truncated_gumbel(location, scale, given.number("min")?, given.number("max")?)
@@ -307,9 +308,9 @@ pub(super) const ENTRIES: &[Entry] = &[
 ];
 
 impl Family for Truncated {
-    fn name(&self, own: &'static str) -> &'static str {
+    fn name(&self, default: &'static str) -> &'static str {
         match &*self.law {
-            Distribution::Normal(_) => own,
+            Distribution::Normal(_) => default,
             Distribution::Gumbel(_) => ENTRIES[1].name,
             law => law.name(),
         }
@@ -352,8 +353,8 @@ impl Family for Truncated {
             }
             (_, law) => {
                 // The quadrature of the moments uses probabilities smaller than a double can represent.
-                let part = |beyond: f64, part: f64| (beyond + part * mass).max(f64::MIN_POSITIVE);
-                let (lower, upper) = (part(below, u), part(above, v));
+                let lower = (below + u * mass).max(f64::MIN_POSITIVE);
+                let upper = (above + v * mass).max(f64::MIN_POSITIVE);
                 if lower < upper { law.quantile(lower) } else { law.upper_quantile(upper) }
             }
         };
@@ -362,20 +363,15 @@ impl Family for Truncated {
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let part = |from: f64, to: f64| (share(&self.law, from, to) / self.mass).clamp(0.0, 1.0);
-        match x {
-            x if x < self.min => (0.0, 1.0),
-            x if x >= self.max => (1.0, 0.0),
-            x => (part(self.min, x), part(x, self.max)),
+        if x < self.min || x >= self.max {
+            return if x < self.min { (0.0, 1.0) } else { (1.0, 0.0) };
         }
+        let [below, above] = [(self.min, x), (x, self.max)].map(|(from, to)| share(&self.law, from, to) / self.mass);
+        (below.clamp(0.0, 1.0), above.clamp(0.0, 1.0))
     }
 
     fn moments(&self) -> (f64, f64) {
         (self.mean, self.sd)
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.min, self.max)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
@@ -390,7 +386,7 @@ impl Family for Truncated {
         parameters
     }
 
-    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let (min, max) = bounds_to_si((self.min, self.max), unit)?;
         self.law.in_si(unit)?.truncated(min, max)
     }

@@ -38,7 +38,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "uniform",
     summary: "Every value between two bounds is equally likely.",
-    ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
+    key_sets: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
     make: |_, [least, width, _]| Distribution::uniform(least, least + width),
     build: |given| Distribution::uniform(given.number("min")?, given.number("max")?),
     ..PLAIN

@@ -30,17 +30,6 @@ enum Origin {
     Labels { labels: Vec<String>, truth: Option<f64> },
 }
 
-/// The file that measured values come from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MeasuredFile {
-    /// Its path as given.
-    pub file: String,
-    /// The name of its column; none for a file of bare numbers.
-    pub column: Option<String>,
-    /// SHA-256 of the file in hexadecimal.
-    pub sha256: String,
-}
-
 impl Distribution {
     /// Returns the distribution of `values` with probabilities proportional to `weights`, or equal ones without.
     ///
@@ -129,8 +118,10 @@ impl Distribution {
                 return Err(refused("labels", format!("the label \"{label}\" is listed twice in `labels`")));
             }
         }
-        let places = || (0..labels.len()).map(|place| place as f64).collect();
-        let values: Vec<f64> = values.map_or_else(places, <[f64]>::to_vec);
+        let values: Vec<f64> = match values {
+            Some(values) => values.to_vec(),
+            None => (0..labels.len()).map(|place| place as f64).collect(),
+        };
         if values.len() != labels.len() {
             let (values, labels) = (values.len(), labels.len());
             let problem = format!("there are {values} `values` for {labels} `labels`, but there must be one for each");
@@ -138,10 +129,11 @@ impl Distribution {
         }
         // 0 and -0 are one number. NaN and infinity are refused with their place below.
         let mut seen = BTreeSet::new();
-        let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
-        if let Some(index) = values.iter().position(is_repeated) {
-            let must = "differ from those before it: every label needs its own value";
-            return Err(entry("values", index, values[index], must));
+        for (index, value) in values.iter().enumerate() {
+            if value.is_finite() && !seen.insert((value + 0.0).to_bits()) {
+                let must = "differ from those before it: every label needs its own value";
+                return Err(entry("values", index, *value, must));
+            }
         }
         Values::new(&values, weights, Origin::Labels { labels, truth: None })?.distribution().finite()
     }
@@ -177,17 +169,18 @@ impl Values {
         if let Some(weights) = weights {
             sum_of_weights(weights, values.len(), "values")?;
         }
-        let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]);
-        let mut pairs: Vec<(f64, f64)> =
-            values.iter().enumerate().map(|(index, value)| (*value, weight(index))).collect();
+        let mut pairs: Vec<(f64, f64)> = match weights {
+            Some(weights) => values.iter().copied().zip(weights.iter().copied()).collect(),
+            None => values.iter().map(|value| (*value, 1.0)).collect(),
+        };
         pairs.retain(|(_, weight)| *weight > 0.0);
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut total = 0.0;
-        let add = |(_, weight): &(f64, f64)| {
+        let mut partial = Vec::with_capacity(pairs.len());
+        for (_, weight) in &pairs {
             total += weight;
-            total
-        };
-        let partial: Vec<f64> = pairs.iter().map(add).collect();
+            partial.push(total);
+        }
         Ok(Self {
             values: values.to_vec(),
             weights: weights.map(<[f64]>::to_vec),
@@ -238,7 +231,7 @@ impl Values {
     }
 
     /// Returns the number of the most probable label, the first of several: the default nominal value.
-    pub fn most_probable(&self) -> f64 {
+    pub(super) fn most_probable(&self) -> f64 {
         let largest = self.categories().map(|(_, _, share)| share).fold(0.0, f64::max);
         self.categories().find(|(_, _, share)| *share == largest).map_or(f64::NAN, |(_, value, _)| value)
     }
@@ -279,7 +272,7 @@ impl Values {
 pub(super) const DISCRETE: &[Entry] = &[Entry {
     name: "discrete",
     summary: "One of several values, with weights.",
-    ways: &[keys(&["values"]).perhaps(&["weights"])],
+    key_sets: &[keys(&["values"]).perhaps(&["weights"])],
     build: |given| Distribution::discrete(given.list("values")?, given.list_if("weights")),
     ..PLAIN
 }];
@@ -287,7 +280,7 @@ pub(super) const DISCRETE: &[Entry] = &[Entry {
 pub(super) const EMPIRICAL: &[Entry] = &[Entry {
     name: "empirical",
     summary: "Measured values, each as likely as any other.",
-    ways: &[keys(&["values"]), keys(&["file"]).perhaps(&["column"])],
+    key_sets: &[keys(&["values"]), keys(&["file"]).perhaps(&["column"])],
     build: |given| match given.get("file") {
         Some(Parameter::Measured(values, source)) => Distribution::empirical(values, Some(source.clone())),
         _ => Distribution::empirical(given.list("values")?, None),
@@ -299,7 +292,7 @@ pub(super) const CATEGORICAL: &[Entry] = &[
     Entry {
         name: "categorical",
         summary: "Labels with weights; the model gets a number for each.",
-        ways: &[keys(&["labels"]).perhaps(&["weights", "values"])],
+        key_sets: &[keys(&["labels"]).perhaps(&["weights", "values"])],
         build: |given| match given.get("labels") {
             Some(Parameter::Texts(labels)) => {
                 Distribution::categorical(labels, given.list_if("values"), given.list_if("weights"))
@@ -311,7 +304,7 @@ pub(super) const CATEGORICAL: &[Entry] = &[
     Entry {
         name: "boolean",
         summary: "True with a probability; the model gets 1 or 0.",
-        ways: &[keys(&[]).perhaps(&["probability"])],
+        key_sets: &[keys(&[]).perhaps(&["probability"])],
         defaults: &[("probability", 0.5)],
         build: |given| Distribution::boolean(given.number("probability")?),
         ..PLAIN
@@ -319,8 +312,8 @@ pub(super) const CATEGORICAL: &[Entry] = &[
 ];
 
 impl Family for Values {
-    fn name(&self, own: &'static str) -> &'static str {
-        if let Origin::Labels { truth: Some(_), .. } = self.origin { CATEGORICAL[1].name } else { own }
+    fn name(&self, default: &'static str) -> &'static str {
+        if let Origin::Labels { truth: Some(_), .. } = self.origin { CATEGORICAL[1].name } else { default }
     }
 
     fn quantile(&self, u: f64) -> f64 {
@@ -338,10 +331,6 @@ impl Family for Values {
     fn moments(&self) -> (f64, f64) {
         let mean = self.expectation(|value| value);
         (mean, self.expectation(|value| (value - mean) * (value - mean)).sqrt())
-    }
-
-    fn support(&self) -> (f64, f64) {
-        (self.quantile(0.0), self.quantile(1.0))
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
@@ -363,7 +352,7 @@ impl Family for Values {
         parameters
     }
 
-    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
         Self::new(&values, self.weights.as_deref(), self.origin.clone()).map(Self::distribution)
     }

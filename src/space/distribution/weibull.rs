@@ -44,7 +44,7 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "weibull",
     summary: "Strengths and lifetimes.",
-    ways: &[
+    key_sets: &[
         keys(&["shape", "scale"]).perhaps(&["location"]),
         MOMENTS.perhaps(&["location"]),
         TWO_QUANTILES.perhaps(&["location"]),
@@ -74,10 +74,6 @@ impl Family for Weibull {
         (self.location + self.scale * libm::tgamma(1.0 + 1.0 / self.shape), self.scale * unit_sd(1.0 / self.shape))
     }
 
-    fn support(&self) -> (f64, f64) {
-        (self.location, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
     }
@@ -92,10 +88,8 @@ fn unit_sd(power: f64) -> f64 {
     // The difference cancels as the shape grows. With x = exp(power t) and the density exp(t - exp(t)) of t, the
     // trapezoidal rule with step 1/4 is exact to 1e-16 (the integrand is analytic for |Im t| < pi / 2), and
     // expm1 keeps the small deviations from 1.
-    let expectation = |function: &dyn Fn(f64) -> f64| -> f64 {
-        let density = |t: f64| 0.25 * libm::exp(t - libm::exp(t));
-        (-200..=16).map(|step| 0.25 * f64::from(step)).map(|t| density(t) * function(libm::expm1(power * t))).sum()
-    };
-    let mean = expectation(&|deviation| deviation);
-    expectation(&|deviation| (deviation - mean) * (deviation - mean)).sqrt()
+    let nodes = (-200..=16).map(|step| 0.25 * f64::from(step));
+    let nodes: Vec<(f64, f64)> = nodes.map(|t| (0.25 * libm::exp(t - libm::exp(t)), libm::expm1(power * t))).collect();
+    let mean: f64 = nodes.iter().map(|(weight, deviation)| weight * deviation).sum();
+    nodes.iter().map(|(weight, deviation)| weight * ((deviation - mean) * (deviation - mean))).sum::<f64>().sqrt()
 }

@@ -82,8 +82,8 @@ impl Dimension {
     /// Returns `self * other^power`, or `None` beyond the range of `i8`.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let mut powers = self.0;
-        for (own, other) in powers.iter_mut().zip(other.0) {
-            *own = own.checked_add(other.checked_mul(power)?)?;
+        for (sum, other) in powers.iter_mut().zip(other.0) {
+            *sum = sum.checked_add(other.checked_mul(power)?)?;
         }
         Some(Self(powers))
     }

@@ -1,9 +1,9 @@
 //! Equality of two numbers, one of which may have been printed by another program.
 
 /// Largest relative difference of two numbers that count as equal: ten digits are enough.
-pub const SAME_VALUE: f64 = 1e-9;
+const SAME_VALUE: f64 = 1e-9;
 
-/// Returns whether `found` is `expected` to [`SAME_VALUE`], or both are the same infinity; NaN equals nothing.
+/// Returns whether `found` is `expected` to a relative difference of 1e-9, or both are the same infinity; NaN equals nothing.
 ///
 /// ```
 /// use apportion_base::quantity::is_same;

@@ -102,12 +102,7 @@ pub(super) fn lookup(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
 }
 
 fn single(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
-    if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
-        return Some(vec![(symbol, 0)]);
-    }
-    let (prefix, decade) = PREFIXES.into_iter().find(|(prefix, _)| name.starts_with(*prefix))?;
-    let rest = &name[prefix.len_utf8()..];
-    let symbol = SYMBOLS.iter().find(|symbol| symbol.name == rest && symbol.prefixes.contains(prefix))?;
+    let (_, symbol, decade) = spellings().find(|(spelling, ..)| spelling == name)?;
     Some(vec![(symbol, decade)])
 }
 
@@ -116,23 +111,22 @@ fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     spellings().filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J")).find_map(
         |(spelling, symbol, prefix)| {
             let rest = name.strip_prefix(spelling.as_str())?;
-            let mut second = single(rest).filter(|found| matches!(found[0].0.name, "m" | "s"))?;
+            let mut second = single(rest).filter(|symbols| matches!(symbols[0].0.name, "m" | "s"))?;
             second.insert(0, (symbol, prefix));
             Some(second)
         },
     )
 }
 
-/// Returns the known spelling at most one edit away; a difference in case counts least.
+/// Returns the spelling at most one edit away; a difference in case counts least.
 pub(super) fn nearest(name: &str) -> Option<String> {
-    let distance = |spelling: &str| {
-        let exact = strsim::damerau_levenshtein(name, spelling);
-        let folded = strsim::damerau_levenshtein(&name.to_lowercase(), &spelling.to_lowercase());
-        (folded, exact)
-    };
-    let all = spellings().map(|(spelling, ..)| spelling).filter(|spelling| spelling.chars().count() > 1);
-    all.map(|spelling| (distance(&spelling), spelling))
-        .filter(|((folded, _), _)| *folded <= 1)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, spelling)| spelling)
+    let folded_name = name.to_lowercase();
+    let mut candidates = Vec::new();
+    for (spelling, ..) in spellings().filter(|(spelling, ..)| spelling.chars().count() > 1) {
+        let folded = strsim::damerau_levenshtein(&folded_name, &spelling.to_lowercase());
+        if folded <= 1 {
+            candidates.push(((folded, strsim::damerau_levenshtein(name, &spelling)), spelling));
+        }
+    }
+    candidates.into_iter().min_by_key(|(distance, _)| *distance).map(|(_, spelling)| spelling)
 }

@@ -12,7 +12,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::symbols::{Symbol, lookup, nearest};
+use super::symbols::{lookup, nearest};
 use super::{Dimension, UnitError};
 
 /// A unit symbol, its factor to SI and its dimension.
@@ -98,7 +98,6 @@ impl Unit {
 
     /// Parses a unit; `nearest` finds a symbol similar to an unknown one.
     fn read(text: &str, nearest: fn(&str) -> Option<String>) -> Result<Self, UnitError> {
-        let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let mut unit = Self::called(text.trim());
         if unit.symbol.is_empty() {
             return Ok(unit);
@@ -107,23 +106,15 @@ impl Unit {
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
             let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {
-                return Err(malformed("something is missing next to the \"/\""));
+                return Err(malformed(text, "something is missing next to the \"/\""));
             }
             for (count, factor) in factors.enumerate() {
                 if place > 0 && count > 0 {
-                    return Err(malformed(
-                        "a product after \"/\" can be read in two ways, write it before (\"N s/m\")",
-                    ));
+                    let reason = "a product after \"/\" can be read in two ways, write it before (\"N s/m\")";
+                    return Err(malformed(text, reason));
                 }
                 let power = if place == 0 { 1 } else { -1 };
-                let symbol = |name: &str| {
-                    lookup(name).ok_or_else(|| UnitError::Unknown {
-                        unit: text.to_owned(),
-                        symbol: name.to_owned(),
-                        nearest: nearest(name),
-                    })
-                };
-                offsets.extend(unit.multiply(factor, power, text, symbol)?);
+                offsets.extend(unit.multiply(factor, power, text, nearest)?);
             }
         }
         if let [(offset, 1)] = offsets[..] {
@@ -131,41 +122,43 @@ impl Unit {
         }
         let decades = f64::from(unit.decade) + libm::log10(unit.times / unit.over);
         if !(-MAX_DECADES..=MAX_DECADES).contains(&decades) {
-            return Err(malformed("its factor to SI is beyond 10^100"));
+            return Err(malformed(text, "its factor to SI is beyond 10^100"));
         }
         Ok(unit)
     }
 
     /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1. Returns the offset and the power of every symbol
-    /// in it, except `1`. `symbols` finds those of a name in it.
+    /// in it, except `1`. `nearest` finds a symbol similar to an unknown one.
     fn multiply(
         &mut self,
         factor: &str,
         sign: i8,
         text: &str,
-        symbols: impl Fn(&str) -> Result<Vec<(&'static Symbol, i32)>, UnitError>,
+        nearest: fn(&str) -> Option<String>,
     ) -> Result<Vec<(f64, i8)>, UnitError> {
-        let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let end = factor.find(|c: char| c.is_ascii_digit() || "^+-".contains(c)).filter(|end| *end > 0);
         let (name, exponent) = factor.split_at(end.unwrap_or(factor.len()));
         let exponent = exponent.strip_prefix('^').unwrap_or(exponent);
         let power = match exponent {
             "" if name == factor => 1,
-            _ => exponent.parse::<i8>().map_err(|_| malformed("a power must be a whole number, as in \"m2\""))?,
+            _ => exponent.parse::<i8>().map_err(|_| malformed(text, "a power must be a whole number, as in \"m2\""))?,
         };
         if !(1..=9).contains(&power.unsigned_abs()) {
-            return Err(malformed("a power must lie between 1 and 9, or -9 and -1"));
+            return Err(malformed(text, "a power must lie between 1 and 9, or -9 and -1"));
         }
         let mut offsets = Vec::new();
-        for (symbol, prefix) in symbols(name)? {
-            let too_high = || malformed("its powers are too high");
+        let Some(symbols) = lookup(name) else {
+            let (unit, symbol, nearest) = (text.to_owned(), name.to_owned(), nearest(name));
+            return Err(UnitError::Unknown { unit, symbol, nearest });
+        };
+        for (symbol, prefix) in symbols {
             let (times, over) = (symbol.times.powi(power.abs().into()), symbol.over.powi(power.abs().into()));
             let (times, over) = if power * sign > 0 { (times, over) } else { (over, times) };
             (self.times, self.over) = (self.times * times, self.over * over);
             self.decade += (symbol.decade + prefix) * i32::from(power * sign);
-            self.dimension = self.dimension.times(symbol.dimension, power * sign).ok_or_else(too_high)?;
+            self.dimension = self.dimension.times(symbol.dimension, power * sign).ok_or_else(|| too_high(text))?;
             if matches!(symbol.name, "deg" | "°") {
-                self.degrees = self.degrees.checked_add(power * sign).ok_or_else(too_high)?;
+                self.degrees = self.degrees.checked_add(power * sign).ok_or_else(|| too_high(text))?;
             }
             if symbol.name != "1" {
                 offsets.push((symbol.offset, power * sign));
@@ -184,7 +177,7 @@ impl Unit {
         self.dimension
     }
 
-    /// Returns whether it is a label, not a known unit.
+    /// Returns whether it is a label, not a unit of physics.
     pub fn is_label(&self) -> bool {
         self.is_label
     }
@@ -240,6 +233,14 @@ impl Unit {
     fn is_decimal(&self) -> bool {
         self.times == 1.0 && self.over == 1.0
     }
+}
+
+fn malformed(unit: &str, reason: &'static str) -> UnitError {
+    UnitError::Malformed { unit: unit.to_owned(), reason }
+}
+
+fn too_high(unit: &str) -> UnitError {
+    malformed(unit, "its powers are too high")
 }
 
 impl PartialEq for Unit {

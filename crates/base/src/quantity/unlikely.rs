@@ -3,20 +3,9 @@
 use super::is_same;
 
 /// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
-const CODES: [f64; 12] = [
-    -999.0,
-    999.0,
-    -9999.0,
-    9999.0,
-    -99999.0,
-    99999.0,
-    -999999.0,
-    999999.0,
-    1e20,
-    -1e20,
-    9.969_209_968_386_869e36,
-    9.96921e36,
-];
+const CODES: [f64; 12] =
+    [-999.0, 999.0, -9999.0, 9999.0, -99999.0, 99999.0, -999999.0, 999999.0, 1e20, -1e20, 9.96921e36, DOUBLE_FILL];
+const DOUBLE_FILL: f64 = 9.969_209_968_386_869e36;
 
 /// Distance of an extreme value from all others, in their range, above which it is unlikely by itself.
 const FAR: f64 = 1e3;
@@ -40,26 +29,23 @@ pub struct Unlikely {
 }
 
 impl Unlikely {
-    /// Returns the smallest or largest of the finite `values`, if it is a known code and stands out or is repeated
+    /// Returns the smallest or largest of the finite `values`, if it is such a code and stands out or is repeated
     /// among values that differ, or if it is far from all others.
     pub fn find(values: &[f64]) -> Option<Self> {
-        let finite = || values.iter().copied().filter(|value| value.is_finite());
-        let range = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-        };
-        let (low, high) = range(&mut finite());
+        let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+        let (low, high) = range(&finite, None);
         [low, high].into_iter().find_map(|value| {
-            let others = range(&mut finite().filter(|other| *other != value));
+            let others = range(&finite, Some(value));
             let width = others.1 - others.0;
             let gap = (value - others.0).abs().min((value - others.1).abs());
             let is_code = CODES.iter().any(|code| is_same(*code, value));
             if others.0 > others.1 || !(is_code || gap > FAR * width) {
                 return None;
             }
-            let mut rest: Vec<f64> = finite().filter(|other| *other != value).collect();
+            let mut rest: Vec<f64> = finite.iter().copied().filter(|other| *other != value).collect();
             rest.sort_unstable_by(f64::total_cmp);
             let distinct = 1 + rest.windows(2).filter(|pair| pair[0] != pair[1]).count();
-            let of = finite().count();
+            let of = finite.len();
             let count = of - rest.len();
             let stands_out = gap > width || count > 1 && 2 * distinct > rest.len();
             let first = values.iter().position(|other| *other == value)?;
@@ -70,7 +56,7 @@ impl Unlikely {
 
     /// Describes it in a table; `row` is the row of its first occurrence, from 1.
     pub fn in_table(&self, row: usize) -> String {
-        format!("{}, read it as one (--missing-value={:?})", self.words("row", row), self.value)
+        format!("{}, read it as one", self.words("row", row))
     }
 
     /// Describes it in runs; `run` is the number of the run of its first occurrence, from 1.
@@ -85,6 +71,15 @@ impl Unlikely {
              {low:?} and {high:?}: if it marks a missing value"
         )
     }
+}
+
+/// Returns the smallest and the largest of the values other than `value`.
+fn range(values: &[f64], value: Option<f64>) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for other in values.iter().copied().filter(|other| Some(*other) != value) {
+        (low, high) = (low.min(other), high.max(other));
+    }
+    (low, high)
 }
 
 #[cfg(test)]

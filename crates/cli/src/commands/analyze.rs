@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use apportion::analysis::unlikely_outputs;
 use apportion::given::Column;
 use apportion::run::Store;
-use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
+use apportion::salib::{SalibError, SalibLayout, SalibProblem, recognise, salib_study};
 use apportion::study::Study;
 use apportion::{Unlikely, Warning};
 use apportion_base::files::read_text;
@@ -67,8 +67,8 @@ fn output_unit(text: &str) -> Result<(String, Unit), String> {
 struct Read {
     study: Study,
     store: Store,
-    /// A sentence on the unlikely value of each output, if it has one.
-    unlikely: Vec<Option<String>>,
+    /// The unlikely value of each output, if it has one.
+    unlikely: Vec<Option<Unlikely>>,
 }
 
 pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
@@ -79,7 +79,11 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {
-        output.warnings.splice(0..0, unlikely.map(|text| Warning::Unlikely { text }));
+        let warning = unlikely.map(|value| {
+            let text = format!("{} (--missing-value={:?})", value.in_table(value.first + 1), value.value);
+            Warning::Unlikely { text }
+        });
+        output.warnings.splice(0..0, warning);
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -181,14 +185,18 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     };
     // None if the file does not hold the inputs.
     let points = Some(&*inputs).filter(|inputs| !inputs.is_empty());
-    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).in_file(path)?;
+    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).map_err(|error| match error {
+        SalibError::Ambiguous { .. } => format!("{error}: choose one by --second-order or --first-order-only"),
+        SalibError::Invalid(problem) => problem,
+    });
+    let layout = layout.in_file(path)?;
     match points {
         Some(_) => say("the points in the file have the layout of SALib"),
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
     let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).in_file(path)?;
-    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
-    Ok(Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
+    let unlikely = outputs.iter().map(|output| Unlikely::find(&output.values)).collect();
+    Ok(Read { study, store, unlikely })
 }
 
 /// What the problem file says, if there is one.

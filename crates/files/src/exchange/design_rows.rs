@@ -96,7 +96,7 @@ pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
         replicates: 1,
         seed: study.design().settings().seed,
     };
-    let of_design = Rows { copula: study.design().asked().copula.clone(), ..Rows::default() };
+    let of_design = Rows { copula: study.design().requested().copula.clone(), ..Rows::default() };
     Design::new(settings, study.design().factors(), of_design)
 }
 

@@ -38,7 +38,7 @@ pub(super) fn study(context: Context) -> Result<(Study, Vec<String>), Fault> {
     builder.title = file.title.as_ref().map(|title| title.get_ref().clone());
     builder.factors = space.factors().iter().cloned().map(Ok).collect();
     builder.dependences = dependence::dependences(&reading, &space)?;
-    builder.lows = fidelity::low_fidelity_models(&reading, &*subject, study)?;
+    builder.low_fidelities = fidelity::low_fidelity_models(&reading, &*subject, study)?;
     match builder.checked() {
         Ok(study) => Ok((study, notes)),
         Err(error) => Err(context.fault(place(&reading, &error), Problem::Build(error))),

@@ -1,6 +1,6 @@
 //! The content of a command's document, and its conversion to a document.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{StudySetup, ValidityRecord};
 
 use super::{DataFile, Document, Figure, Part, Section, Table, UNNUMBERED, figures_mut};

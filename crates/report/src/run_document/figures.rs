@@ -1,6 +1,6 @@
 //! The charts of a run as numbered figures.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
 
 use crate::chart::Chart;

@@ -1,6 +1,6 @@
 //! The summary: which factor matters most, with which certainty.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
 use apportion_base::text::listed;
 

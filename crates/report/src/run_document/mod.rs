@@ -8,7 +8,7 @@ mod series;
 mod shared;
 mod tables;
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
 use apportion_base::text::{capitalised, listed};
 use figures::Figures;

@@ -1,7 +1,7 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::correction::NamedTerm;
-use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult, SurrogateRecord};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 

@@ -1,6 +1,6 @@
 //! Sweeps as a document, with their charts: every output against each factor, and the effect of each factor on each output.
 
-use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::json;
 use apportion::sweep::{NominalOutput, Sweep, SweptOutput};
 use apportion_base::text::listed;

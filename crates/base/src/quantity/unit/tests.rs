@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::quantity::symbols::spellings;
+use crate::quantity::symbols::{Symbol, spellings};
 
 fn unit(text: &str) -> Unit {
     Unit::parse(text).unwrap_or_else(|error| panic!("{error}"))
