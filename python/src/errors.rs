@@ -1,5 +1,6 @@
 //! What Python gets to see of errors.
 
+use apportion::run::journal::JournalMismatch;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -19,10 +20,22 @@ pub fn input(error: impl std::fmt::Display) -> PyErr {
 
 /// A run that failed.
 pub fn run(error: &apportion::RunError) -> PyErr {
+    use apportion::RunError as Error;
+    let remedy = match error {
+        Error::TooManyOutputs { .. } => {
+            ": use fewer base_samples or outputs, intervals=\"batches\", or start again with resume=\"never\""
+        }
+        Error::JournalMismatch { kind: JournalMismatch::OtherModel { .. }, .. } => {
+            ": its runs are from the earlier version. Undo the change, or start again with resume=\"never\""
+        }
+        Error::NoJournal { .. } => ": name a file with journal=",
+        _ => "",
+    };
+    let message = format!("{error}{remedy}");
     match error {
-        apportion::RunError::Interrupted { .. } => PyKeyboardInterrupt::new_err(error.to_string()),
-        apportion::RunError::Refused { .. } => input(error),
-        _ => RunError::new_err(error.to_string()),
+        Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(message),
+        Error::JournalMismatch { .. } => input(message),
+        _ => RunError::new_err(message),
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use apportion::given::Column;
 use apportion::result::{RunFacts, StudyResult};
-use apportion::run::{Piece, Store, threads_in_force};
+use apportion::run::{RowBlock, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
@@ -250,7 +250,7 @@ impl Study {
                 }
             }
             batch.settle();
-            store.insert(&Piece::from_batches(replicate, 0, std::slice::from_ref(&batch)));
+            store.insert(&RowBlock::from_batches(replicate, 0, std::slice::from_ref(&batch)));
         }
         py.detach(|| {
             let result = study.runner().store(&store).run().map_err(|error| run_error(&error))?;

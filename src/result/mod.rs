@@ -84,7 +84,7 @@ pub struct StudyResult {
     pub stopping: Option<StoppingRecord>,
     /// The choices of a run with a target accuracy, and their reasons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spending: Option<SpendingRecord>,
+    pub spending: Option<AccuracyRecord>,
     /// Low-fidelity models that were run in addition to the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lows: Vec<LowRuns>,
@@ -302,7 +302,7 @@ impl SeriesRecord {
 /// The choices of a run with a target accuracy, and their reasons.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SpendingRecord {
+pub struct AccuracyRecord {
     /// The requested half width.
     pub accuracy: f64,
     /// Total runs of the model, including those of trials.

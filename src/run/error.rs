@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::journal::JournalError;
-use super::{MAX_STORED_BYTES, Place};
+use super::journal::{JournalError, JournalMismatch};
+use super::{MAX_STORED_BYTES, RowPosition};
 use crate::design::DesignError;
 use crate::model::{GiveUp, RowFailure};
 
@@ -24,15 +24,14 @@ pub enum RunError {
     #[error("a run failed, and the study stops at the first failure: {reason}")]
     RowFailed {
         /// The row.
-        row: Place,
+        row: RowPosition,
         /// The cause.
         reason: RowFailure,
     },
     /// The outputs of all runs were to be kept, and there are too many.
     #[error(
         "the outputs of {runs} runs must be in memory at once and take {bytes} bytes, more than the limit of \
-         {MAX_STORED_BYTES}: use fewer base samples or outputs, intervals = \"batches\", or start again without \
-         saved outputs (--restart)"
+         {MAX_STORED_BYTES}"
     )]
     TooManyOutputs {
         /// Model runs.
@@ -65,29 +64,31 @@ pub enum RunError {
     /// The journal cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The journal, or what was requested of it, does not fit the study.
-    #[error("{}: {reason}", .path.display())]
-    Refused {
+    /// The journal, or what was requested of it, does not fit the run.
+    #[error("{}: {kind}", .path.display())]
+    JournalMismatch {
         /// The journal.
         path: PathBuf,
-        /// What is wrong, and how to correct it.
-        reason: String,
+        /// What does not fit.
+        kind: JournalMismatch,
     },
     /// A feature that needs a journal was used without one.
-    #[error("{what} needs a journal: set one with Runner::journal")]
+    #[error("{what} needs a journal")]
     NoJournal {
         /// The feature.
         what: &'static str,
     },
-    /// A run that chooses its own size has no parts.
-    #[error("a study with an accuracy, a target, a budget or max_runs has no fixed size to divide into shards")]
+    /// A run that chooses its size has no shards.
+    #[error(
+        "a run with an accuracy, a maximum time or a maximum number of runs has no fixed size to divide into shards"
+    )]
     NoSize,
     /// Parts of a run are missing.
     #[error("{missing} of {total} runs are missing: {places}")]
     Incomplete {
         /// Runs that are missing.
         missing: u64,
-        /// Model runs of the whole design.
+        /// Model runs of the design.
         total: u64,
         /// Which runs they are, in words.
         places: String,

@@ -32,7 +32,7 @@ pub struct GrowingRun<'a> {
     pub keeps_outputs: bool,
     /// Keeps outputs: rows that it already has are not evaluated.
     pub store: Option<&'a Store>,
-    /// Receives every piece of evaluated outputs before its rows count as done.
+    /// Receives every block of evaluated outputs before its rows count as done.
     pub sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate evaluated so far.
     points: u64,
@@ -91,14 +91,7 @@ impl<'a> GrowingRun<'a> {
     /// # Panics
     /// If the caller is a thread of another pool, and no thread can be started to wait for this one.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        let Some(pool) = &self.pool else { return work() };
-        if rayon::current_thread_index().is_none() {
-            return pool.install(work);
-        }
-        // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and
-        // so on: many runs side by side would use up its stack.
-        std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        install(self.pool.as_ref(), work)
     }
 
     /// Runs the base points missing for every replicate to have `points` of them, at most the design's. Existing ones
@@ -126,10 +119,13 @@ impl<'a> GrowingRun<'a> {
                 silent
             }
         };
-        let [done, failed] = [|totals: &Totals| totals.runs, |totals: &Totals| totals.failed_runs]
-            .map(|count| self.totals.iter().map(count).sum::<u64>());
-        let total = points * replicates * design.rows_per_point();
-        let before = Progress { done, recalled: 0, total, failed, elapsed: self.start.elapsed() };
+        let before = Progress {
+            done: self.totals.iter().map(|totals| totals.runs).sum(),
+            recalled: 0,
+            total: points * replicates * design.rows_per_point(),
+            failed: self.totals.iter().map(|totals| totals.failed_runs).sum(),
+            elapsed: self.start.elapsed(),
+        };
         let tracker = Tracker::new(self.context, before, self.start, on_progress);
         let fold = Fold { run: self, tracker: &tracker, idle: Mutex::default() };
         let new = self.install(|| fold.run(self.points..points));
@@ -138,7 +134,9 @@ impl<'a> GrowingRun<'a> {
         if self.totals.is_empty() {
             self.totals = new;
         } else {
-            self.totals.iter_mut().zip(&new).for_each(|(totals, new)| totals.merge(new));
+            for (totals, new) in self.totals.iter_mut().zip(&new) {
+                totals.merge(new);
+            }
         }
         self.points = points;
         Ok(())
@@ -184,6 +182,18 @@ impl<'a> GrowingRun<'a> {
     pub fn elapsed(&self) -> std::time::Duration {
         self.start.elapsed()
     }
+}
+
+/// Runs `work` on the threads of `pool`, or on those of the caller without one.
+pub(super) fn install<R: Send>(pool: Option<&ThreadPool>, work: impl FnOnce() -> R + Send) -> R {
+    let Some(pool) = pool else { return work() };
+    if rayon::current_thread_index().is_none() {
+        return pool.install(work);
+    }
+    // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and so
+    // on: many simultaneous runs would use up its stack.
+    std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
+        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Creates a pool of `threads` threads (0: one per core); `None` if the caller already has this many, because starting

@@ -30,7 +30,7 @@ use std::time::Duration;
 
 pub use each::run_each;
 pub use error::RunError;
-pub use failures::{Failures, MAX_REASONS, Place, Tally};
+pub use failures::{Failures, MAX_REASONS, RowPosition, Tally};
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
@@ -41,8 +41,8 @@ pub use rows::RowValues;
 pub(crate) use rows::answered;
 pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
-pub use store::{Piece, Store};
-pub use table::{Halt, TableRun};
+pub use store::{RowBlock, Store};
+pub use table::{EvaluationStopped, TableRun};
 pub use totals::{OutputTotals, SAMPLE, Totals};
 
 use crate::design::Design;
@@ -101,16 +101,16 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.totals)
 }
 
-/// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.
+/// A receiver of every block of evaluated outputs, called by the evaluating thread before its rows count as done.
 pub trait OutputSink: Sync {
     /// Returns whether it currently accepts outputs.
     fn is_open(&self) -> bool;
 
-    /// Accepts a piece.
+    /// Accepts a block.
     ///
     /// # Errors
-    /// Why the piece cannot be saved, which ends the run.
-    fn append(&self, piece: &Piece) -> std::io::Result<()>;
+    /// Why the block cannot be saved, which ends the run.
+    fn append(&self, block: &RowBlock) -> std::io::Result<()>;
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

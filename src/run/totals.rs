@@ -1,6 +1,6 @@
 //! The totals of a run: constant in size unless outputs are kept, merged in a fixed tree.
 
-use super::failures::{Failures, Place};
+use super::failures::{Failures, RowPosition};
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
 
@@ -53,7 +53,7 @@ impl Totals {
     }
 
     /// Returns the first row that failed, and why.
-    pub(super) fn first_failure(&self) -> Option<(Place, RowFailure)> {
+    pub(super) fn first_failure(&self) -> Option<(RowPosition, RowFailure)> {
         let failures = self.outputs.iter().filter_map(|output| output.failures.first());
         let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
         Some((tally.first, reason))

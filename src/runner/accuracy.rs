@@ -11,7 +11,7 @@ use super::{Resume, Runner};
 use crate::analysis::StopReason;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::RunContext;
-use crate::result::{OutputResult, SpendingRecord, StudyResult};
+use crate::result::{AccuracyRecord, OutputResult, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::uncertainty::largest_half_width;
@@ -34,7 +34,7 @@ const FIRST_PLAIN: u64 = 1 << 10;
 
 /// Runs `runner`'s study until it reaches the accuracy of its target.
 pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<StudyResult, RunError> {
-    let mut attempt = Attempt { runner, context, runs: 0, reasons: Vec::new() };
+    let mut attempt = AccuracySearch { runner, context, runs: 0, reasons: Vec::new() };
     let study = runner.study;
     let DesignSettings { sampler, replicates, .. } = *study.design.settings();
     if !study.analysis.takes_surrogates(sampler, replicates, &study.space) {
@@ -56,9 +56,9 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
 }
 
 /// A result, and why its run stopped.
-type Ended = (StudyResult, Option<StopReason>);
+type RunOutcome = (StudyResult, Option<StopReason>);
 
-struct Attempt<'a> {
+struct AccuracySearch<'a> {
     runner: &'a Runner<'a>,
     context: &'a RunContext<'a>,
     /// Runs of earlier trials.
@@ -66,7 +66,7 @@ struct Attempt<'a> {
     reasons: Vec<String>,
 }
 
-impl Attempt<'_> {
+impl AccuracySearch<'_> {
     fn say(&mut self, reason: impl Into<String>) {
         self.reasons.push(reason.into());
     }
@@ -86,7 +86,7 @@ impl Attempt<'_> {
     }
 
     /// Runs without surrogates.
-    fn plain(&mut self) -> Result<Ended, RunError> {
+    fn plain(&mut self) -> Result<RunOutcome, RunError> {
         let replicates = self.runner.study.design.settings().replicates;
         let study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
         self.run(&study, None, None)
@@ -100,7 +100,7 @@ impl Attempt<'_> {
     }
 
     /// Runs with surrogates and `lows`, all runs at base points; those in `store` are reused.
-    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Ended, RunError> {
+    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<RunOutcome, RunError> {
         let mut study = self.variant(TRIAL_POINTS, 0, self.runner.study.analysis.surrogate)?;
         study.lows = lows;
         study.target = Target { max_runs: self.max_runs(), ..study.target };
@@ -108,7 +108,7 @@ impl Attempt<'_> {
     }
 
     /// Runs with plain rows, if polynomials explain the model; `unsplit` holds outputs of rows without them.
-    fn split(&mut self, unsplit: &Store) -> Result<Ended, RunError> {
+    fn split(&mut self, unsplit: &Store) -> Result<RunOutcome, RunError> {
         let of_point = self.variant(SPLIT_POINTS, 0, SurrogateChoice::On)?.design.rows_per_point();
         let plain_rows = u32::try_from(of_point * PLAIN_ROWS).unwrap_or(u32::MAX).min(crate::design::MAX_PLAIN_ROWS);
         let mut study = self.variant(SPLIT_POINTS, plain_rows, SurrogateChoice::On)?;
@@ -141,7 +141,7 @@ impl Attempt<'_> {
         self.fitted(Vec::new(), unsplit)
     }
 
-    fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Ended, RunError> {
+    fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<RunOutcome, RunError> {
         let Runner { journal, resume, .. } = self.runner;
         let journal = match (journal, kind) {
             (Some(path), Some(kind)) => Some(sibling_path(path, kind)),
@@ -153,7 +153,7 @@ impl Attempt<'_> {
         let (mut result, reason) = part.analyse(self.context, journal)?;
         self.runs += result.provenance.model_runs;
         let accuracy = study.target.accuracy.unwrap_or_default();
-        result.spending = Some(SpendingRecord {
+        result.spending = Some(AccuracyRecord {
             accuracy,
             runs: self.runs,
             plain_runs: plain_runs(study, &result, accuracy),
@@ -192,7 +192,7 @@ fn explained(result: &StudyResult) -> f64 {
     result.outputs.iter().map(of_output).fold(1.0, f64::min)
 }
 
-/// Computes [`SpendingRecord::plain_runs`].
+/// Computes [`AccuracyRecord::plain_runs`].
 fn plain_runs(study: &Study, result: &StudyResult, accuracy: f64) -> Option<u64> {
     let of_output = |output: &OutputResult| match &output.surrogate {
         None => output.largest_half_width(),

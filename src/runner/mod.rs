@@ -216,7 +216,7 @@ impl<'a> Runner<'a> {
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
     /// merged runs are always recorded: they may have cost much elsewhere.
     /// # Errors
-    /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
+    /// As for [`run`](Self::run), and [`RunError::JournalMismatch`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
     pub fn merge(self, journals: &[PathBuf]) -> Result<StudyResult, RunError> {
         let context = self.context();
@@ -289,7 +289,7 @@ impl<'a> Runner<'a> {
         let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
         if let Some(store) = self.store {
-            journal.store.pieces().iter().for_each(|piece| _ = store.insert(piece));
+            journal.store.blocks().iter().for_each(|block| _ = store.insert(block));
         }
         let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
         let on_progress = |progress: Progress| {

@@ -85,12 +85,12 @@ impl<'a> RemoteServer<'a> {
         self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
         self.batch.settle();
         let seconds = begun.elapsed().as_secs_f64();
-        Reply { seconds, given_up: self.batch.given_up().cloned(), pieces: answered(&range, &self.batch) }
+        Reply { seconds, given_up: self.batch.given_up().cloned(), blocks: answered(&range, &self.batch) }
     }
 }
 
 /// Returns the reply to a request that cannot be met.
 fn refusal(what: &str) -> Reply {
     let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {what}")).into());
-    Reply { seconds: 0.0, given_up, pieces: Vec::new() }
+    Reply { seconds: 0.0, given_up, blocks: Vec::new() }
 }

@@ -126,21 +126,6 @@ fn studies_give_the_numbers_they_gave() {
     }
 }
 
-/// The journal was written by the program before rows of programs had numbers.
-#[test]
-fn a_journal_of_an_earlier_version_is_resumed() {
-    let folder_of_run = Folder::new();
-    std::fs::copy(folder().join("ishigami.journal"), folder_of_run.path("ishigami.journal")).unwrap();
-    let study = crate::common::study_path("ishigami");
-    let out = folder_of_run.path("");
-    succeed(&["run", text(&study), "--base-samples", "256", "--resume", "--out", text(&out), "--set", PLAIN]);
-    let result = std::fs::read_to_string(folder_of_run.path("ishigami.json")).unwrap();
-    hold("ishigami-resumed", &essence(&serde_json::from_str(&result).unwrap()));
-    let journal = std::fs::read(folder_of_run.path("ishigami.journal")).unwrap();
-    let before = std::fs::read(folder().join("ishigami.journal")).unwrap();
-    assert!(journal == before, "runs on record were evaluated again");
-}
-
 /// The points of a design, and the result of `analyze` for outputs computed elsewhere.
 #[test]
 fn a_design_of_an_earlier_version_is_analysed() {

@@ -36,15 +36,15 @@ pub enum JournalError {
         path: PathBuf,
     },
     /// The file is not a journal, or its header is damaged.
-    #[error("{}: this is not a journal of a run: {found}", .path.display())]
+    #[error("{}: this is not a journal of a run: {reason}", .path.display())]
     NotAJournal {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        found: String,
+        reason: String,
     },
     /// The version of the format is unknown.
-    #[error("{}: the journal is of format {version}, and this program reads format 1 (format 2 holds sums of runs, which are no longer kept)", .path.display())]
+    #[error("{}: the journal is of format {version}, and format 1 is expected", .path.display())]
     OtherVersion {
         /// The file.
         path: PathBuf,
@@ -53,7 +53,47 @@ pub enum JournalError {
     },
 }
 
+/// Why a journal does not fit a run.
+#[derive(Debug, Error)]
+pub enum JournalMismatch {
+    /// There is no journal to resume.
+    #[error("no journal found: there is nothing to resume (quick runs keep none)")]
+    Missing,
+    /// The file cannot be read.
+    #[error("cannot read the journal: {0}")]
+    Unreadable(std::io::Error),
+    /// It is of another study.
+    #[error("the journal is of another study ({name}): {differences}")]
+    OtherStudy {
+        /// The name of that study.
+        name: String,
+        /// How its identity differs from that of the study to run.
+        differences: String,
+    },
+    /// It is of another version of the model.
+    #[error("{files} changed since the journal was written")]
+    OtherModel {
+        /// The names of the files that changed.
+        files: String,
+    },
+    /// Two shards are of different versions of the model.
+    #[error("evaluated with another {files} than {}: evaluate one of the two shards again", .other.display())]
+    OtherFiles {
+        /// The names of the files that differ.
+        files: String,
+        /// The journal of the other shard.
+        other: PathBuf,
+    },
+    /// A record of a shard cannot be divided into runs that are already merged and new ones.
+    #[error("holds some runs that are already merged and some that are not")]
+    PartlyMerged,
+}
+
 impl JournalError {
+    pub(super) fn invalid(path: &Path, reason: &str) -> Self {
+        Self::NotAJournal { path: path.to_owned(), reason: reason.to_owned() }
+    }
+
     pub(super) fn unreadable(path: &Path, source: std::io::Error) -> Self {
         Self::Unreadable { path: path.to_owned(), source }
     }

@@ -1,4 +1,4 @@
-//! The journal of a run: a file of finished pieces with checksums that survives an abrupt end of the run.
+//! The journal of a run: a file of finished blocks with checksums that survives an abrupt end of the run.
 //!
 //! A journal is a header, which identifies the study, and records, which are only appended, each by one write. Reading
 //! stops at a record that was cut short or damaged: it and all after it are evaluated again. The format is described in
@@ -17,13 +17,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-pub use error::JournalError;
+pub use error::{JournalError, JournalMismatch};
 pub use format::{Contents, read_journal};
 pub(super) use format::{Reader, record, write_record};
 pub use identity::differences;
 use serde_json::Value;
 
-use super::Piece;
+use super::RowBlock;
 use apportion_base::clock::Instant;
 use apportion_base::files::{read_opened, read_whole};
 
@@ -78,13 +78,13 @@ impl Journal {
         Ok((Self { writer: Mutex::new(writer) }, contents))
     }
 
-    /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
+    /// Appends a block, by one write: when this returns, the block survives the death of the program.
     ///
     /// # Errors
     /// The error of the operating system; the journal then ends with the previous record.
-    pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
+    pub fn append(&self, block: &RowBlock) -> std::io::Result<()> {
         let mut record = Vec::new();
-        format::write_record(&mut record, piece);
+        format::write_record(&mut record, block);
         self.writer.lock().unwrap_or_else(PoisonError::into_inner).append(&record)
     }
 

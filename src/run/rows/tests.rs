@@ -29,13 +29,13 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
     })
 }
 
-impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
+impl<F: Fn(&RowBlock) -> std::io::Result<()> + Sync> OutputSink for F {
     fn is_open(&self) -> bool {
         true
     }
 
-    fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self(piece)
+    fn append(&self, block: &RowBlock) -> std::io::Result<()> {
+        self(block)
     }
 }
 
@@ -88,8 +88,8 @@ fn shards_make_up_the_whole_run() {
     for number in [3, 1, 2] {
         let shard: Shard = format!("{number}/3").parse().unwrap();
         let (part, kept) = (Store::new(&model), Mutex::new(Vec::new()));
-        let sink = |piece: &Piece| {
-            kept.lock().unwrap().push(piece.clone());
+        let sink = |block: &RowBlock| {
+            kept.lock().unwrap().push(block.clone());
             Ok(())
         };
         let space = space();
@@ -98,8 +98,8 @@ fn shards_make_up_the_whole_run() {
         let mut run = GrowingRun::new(job, &context, 2).unwrap();
         run.sink = Some(&sink);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
-        kept.lock().unwrap().iter().for_each(|piece| {
-            whole.insert(piece);
+        kept.lock().unwrap().iter().for_each(|block| {
+            whole.insert(block);
         });
     }
     rows.store(0, Ordering::Relaxed);
@@ -201,7 +201,7 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let model = counted(&rows);
     let design = design(4 * BLOCK, 1);
     let store = Store::new(&model);
-    let full = |_: &Piece| Err(std::io::Error::from(std::io::ErrorKind::StorageFull));
+    let full = |_: &RowBlock| Err(std::io::Error::from(std::io::ErrorKind::StorageFull));
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();

@@ -7,7 +7,7 @@ use apportion::run::journal::{JournalError, differences, read_journal};
 /// The header of a journal without anything in it.
 const HEADER: &[u8] = b"apportion journal\x01\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}";
 
-/// Bytes are refused with the file and a reason, or every piece that is read is complete. They are read as a journal, and as
+/// Bytes are refused with the file and a reason, or every block that is read is complete. They are read as a journal, and as
 /// the body of a record with the right checksum, which no fuzzer would find.
 pub fn run(bytes: &[u8]) {
     read(bytes);
@@ -26,8 +26,8 @@ fn read(bytes: &[u8]) {
         }
         Ok(contents) => {
             assert_eq!(contents.length + contents.cut_off, bytes.len() as u64);
-            for piece in &contents.pieces {
-                assert!(piece.first.checked_add(piece.rows(1)).is_some());
+            for block in &contents.blocks {
+                assert!(block.first.checked_add(block.rows(1)).is_some());
             }
             assert!(differences(&contents.header, &contents.header).is_empty());
             differences(&contents.header, &contents.header["identity"]);

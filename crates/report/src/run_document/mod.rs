@@ -9,7 +9,7 @@ mod shared;
 mod tables;
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
+use apportion::result::{AccuracyRecord, AggregateRecord, LowRuns, StudyRecord, StudyResult};
 use apportion_base::text::{capitalised, listed};
 use figures::Figures;
 pub use series::one_output;
@@ -191,7 +191,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
 }
 
 /// Describes what a run with a target accuracy chose, why, and what it saved.
-fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
+fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
     let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
     let spent = grouped(spending.runs);
     let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
