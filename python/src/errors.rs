@@ -25,7 +25,7 @@ pub fn run(error: &apportion::RunError) -> PyErr {
         Error::TooManyOutputs { .. } => {
             ": use fewer base_samples or outputs, intervals=\"batches\", or start again with resume=\"never\""
         }
-        Error::JournalMismatch { kind: JournalMismatch::OtherModel { .. }, .. } => {
+        Error::JournalMismatch { kind: JournalMismatch::OtherModel(_), .. } => {
             ": its runs are from the earlier version. Undo the change, or start again with resume=\"never\""
         }
         Error::NoJournal { .. } => ": name a file with journal=",

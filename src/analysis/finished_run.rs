@@ -23,7 +23,7 @@ pub(crate) struct FinishedRun<'a> {
     /// Totals of each replicate.
     pub replicates: &'a [Totals],
     /// The runs of low-fidelity models.
-    pub lows: &'a [LowTotals<'a>],
+    pub low_fidelity: &'a [LowFidelityTotals<'a>],
     /// The surrogate estimates of every output, if already known.
     pub surrogates: Option<&'a [Option<SurrogateEstimates>]>,
     /// Threads that ran the model.
@@ -34,7 +34,7 @@ pub(crate) struct FinishedRun<'a> {
 
 /// The runs of a low-fidelity model.
 #[derive(Clone, Copy)]
-pub(crate) struct LowTotals<'a> {
+pub(crate) struct LowFidelityTotals<'a> {
     /// Its name.
     pub name: &'a str,
     /// Totals of each replicate at the rows of the expensive model.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::finished_run::{FinishedRun, LowTotals, outputs_kept};
+use super::finished_run::{FinishedRun, LowFidelityTotals, outputs_kept};
 use super::rare_levels::rare_levels;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs};
@@ -43,10 +43,10 @@ pub(crate) fn surrogates(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
-    lows: &[LowTotals<'_>],
+    low_fidelity: &[LowFidelityTotals<'_>],
     longer: &[Option<SurrogateEstimates>],
 ) -> Vec<Option<SurrogateEstimates>> {
-    surrogates_and_trials(study, design, replicates, lows, longer).0
+    surrogates_and_trials(study, design, replicates, low_fidelity, longer).0
 }
 
 /// Returns the same, and the trial of each output that had one.
@@ -54,7 +54,7 @@ fn surrogates_and_trials(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
-    lows: &[LowTotals<'_>],
+    low_fidelity: &[LowFidelityTotals<'_>],
     longer: &[Option<SurrogateEstimates>],
 ) -> (Vec<Option<SurrogateEstimates>>, Vec<Option<SurrogateTrial>>) {
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
@@ -93,13 +93,13 @@ fn surrogates_and_trials(
         if left_out[number] {
             return None;
         }
-        let of_low = |low: &LowTotals<'_>| {
+        let of_low = |low: &LowFidelityTotals<'_>| {
             let own = low.outputs.get(number)?.as_ref()?;
             let shared = first(low.shared, number);
             let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
             low_fidelity_estimates(design, &families, &layout, &kept[number], &low)
         };
-        let all = alone.into_iter().chain(lows.iter().filter_map(of_low));
+        let all = alone.into_iter().chain(low_fidelity.iter().filter_map(of_low));
         all.min_by(|a, b| a.squared_error().total_cmp(&b.squared_error()))
     };
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
@@ -159,9 +159,10 @@ pub(super) struct Corrections {
 
 impl Corrections {
     pub fn new(run: &FinishedRun<'_>) -> Self {
-        let FinishedRun { study, design, replicates, lows, .. } = *run;
+        let FinishedRun { study, design, replicates, low_fidelity, .. } = *run;
         let known = run.surrogates.map(|known| (known.to_vec(), Vec::new()));
-        let (whole, trials) = known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, lows, &[]));
+        let (whole, trials) =
+            known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, low_fidelity, &[]));
         let mut stages = BTreeMap::new();
         if study.analysis.convergence && whole.iter().any(Option::is_some) {
             // All outputs have the same parts.
@@ -169,7 +170,7 @@ impl Corrections {
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
             for points in points_of_stages(&parts) {
                 if let Ok(design) = design.with_points(points) {
-                    stages.insert(points, surrogates(study, &design, replicates, lows, &whole));
+                    stages.insert(points, surrogates(study, &design, replicates, low_fidelity, &whole));
                 }
             }
         }

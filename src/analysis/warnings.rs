@@ -82,7 +82,7 @@ fn of_dependent_steps(study: &Study) -> Option<Warning> {
     let depends =
         |name: &str| space.dependences().iter().any(|dependence| dependence.factors().iter().any(|of| of == name));
     let steps = space.factors().iter().filter(|factor| {
-        depends(&factor.name) && (factor.distribution().levels().is_some() || factor.distribution().is_complete())
+        depends(&factor.name) && (factor.distribution().levels().is_some() || factor.distribution().is_whole())
     });
     let factors: Vec<String> = steps.map(|factor| factor.name.clone()).collect();
     (!factors.is_empty()).then_some(Warning::DependentSteps { factors })

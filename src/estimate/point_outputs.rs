@@ -47,8 +47,8 @@ impl PointOutputs {
     pub fn prefix(&self, end: u64) -> Self {
         let mut prefix = Self::default();
         for (block, columns) in self.blocks.iter().zip(self.blocks(end)) {
-            let is_complete = columns.first().is_some_and(|column| column.len() == block.points);
-            let of_block = if is_complete {
+            let is_whole = columns.first().is_some_and(|column| column.len() == block.points);
+            let of_block = if is_whole {
                 Self { blocks: vec![Arc::clone(block)], points: block.points as u64 }
             } else {
                 Self::of_block(&columns)

@@ -87,7 +87,7 @@ pub struct StudyResult {
     pub spending: Option<AccuracyRecord>,
     /// Low-fidelity models that were run in addition to the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub lows: Vec<LowRuns>,
+    pub low_fidelity: Vec<LowFidelityRuns>,
 }
 
 impl StudyResult {
@@ -358,7 +358,7 @@ pub struct RungRecord {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
-pub struct LowRuns {
+pub struct LowFidelityRuns {
     /// Its name.
     pub name: String,
     /// Runs at the rows of the model.

@@ -179,13 +179,7 @@ impl Execution<'_, '_> {
 
     /// Counts accepted rows; returns whether they were accepted.
     fn count(&self, accepted: Result<(u64, u64), RunError>) -> bool {
-        match accepted {
-            Ok((rows, failed)) => self.tracker.add(rows, failed),
-            Err(error) => {
-                self.tracker.end(error);
-                return false;
-            }
-        }
-        true
+        let counted = accepted.map(|(rows, failed)| self.tracker.add(rows, failed));
+        counted.map_err(|error| self.tracker.end(error)).is_ok()
     }
 }

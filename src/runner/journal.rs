@@ -194,12 +194,12 @@ fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
 fn another_study(study: &Study, header: &Value) -> Option<JournalMismatch> {
     let differences = differences(&header["identity"], &study.identity()).join("; ");
     let name = header["study"].as_str().unwrap_or_default().to_owned();
-    (!differences.is_empty()).then_some(JournalMismatch::OtherStudy { name, differences })
+    (!differences.is_empty()).then_some(JournalMismatch::OtherStudy(name, differences))
 }
 
 /// Returns how the model of a journal with this header differs from one with `files` (path: digest), if it does.
 fn another_model(header: &Value, files: &Value) -> Option<JournalMismatch> {
-    differing(&header["files"], files).map(|files| JournalMismatch::OtherModel { files })
+    differing(&header["files"], files).map(JournalMismatch::OtherModel)
 }
 
 /// Renames a journal to an unused name.

@@ -29,11 +29,11 @@ pub struct WorkerStudy {
 impl WorkerStudy {
     /// Creates the models of `study`, which must be the same as that of the run in the other process.
     pub fn new(mut study: Study) -> Self {
-        if study.lows.is_empty() {
-            study.lows = study.subject.cheaper();
+        if study.low_fidelity.is_empty() {
+            study.low_fidelity = study.subject.cheaper();
         }
-        let lows = study.lows.iter().map(|low| low.subject.model(&study.space));
-        let models = std::iter::once(study.model()).chain(lows).collect();
+        let low_fidelity = study.low_fidelity.iter().map(|low| low.subject.model(&study.space));
+        let models = std::iter::once(study.model()).chain(low_fidelity).collect();
         Self { study, models }
     }
 
@@ -45,8 +45,8 @@ impl WorkerStudy {
             let reply = match request.and_then(|request| Some((self.models.get(request.subject)?, request))) {
                 None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
-                    let new = || RemoteServer::new(&self.study, model.as_ref(), context);
-                    servers.entry(request.subject).or_insert_with(new).reply(request)
+                    let server = servers.entry(request.subject);
+                    server.or_insert_with(|| RemoteServer::new(&self.study, model.as_ref(), context)).reply(request)
                 }
             };
             requests.reply(reply.write());
@@ -71,10 +71,12 @@ impl<'a> RemoteServer<'a> {
 
     /// Evaluates the rows of a request, of a design that differs from that of the study by its key.
     fn reply(&mut self, Request { design: key, range, .. }: Request) -> Reply {
-        let current = self.current.take().filter(|(current, ..)| *current == key);
-        let new = || Some((key.clone(), key.design(&self.study.design)?, RowValues::default()));
-        let Some(current) = current.or_else(new) else { return refusal("an unknown design") };
-        let (_, design, values) = self.current.insert(current);
+        let previous = self.current.take().filter(|(previous, ..)| *previous == key);
+        self.current = previous.or_else(|| {
+            let design = key.design(&self.study.design)?;
+            Some((key, design, RowValues::default()))
+        });
+        let Some((_, design, values)) = &mut self.current else { return refusal("an unknown design") };
         let rows = design.points_per_replicate() * design.rows_per_point();
         if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
             return refusal("rows that are not in the design");

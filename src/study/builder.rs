@@ -34,7 +34,7 @@ pub struct StudyBuilder {
     /// What to estimate; by default [`AnalysisOptions::for_sampler`].
     pub analysis: Option<AnalysisOptions>,
     /// Low-fidelity models of the same outputs.
-    pub lows: Vec<LowFidelity>,
+    pub low_fidelity: Vec<LowFidelity>,
     /// Which factors depend on each other.
     pub dependences: Vec<Dependence>,
 }
@@ -53,7 +53,7 @@ impl StudyBuilder {
             replicates: None,
             seed,
             analysis: None,
-            lows: Vec::new(),
+            low_fidelity: Vec::new(),
             dependences: Vec::new(),
         }
     }
@@ -174,7 +174,7 @@ impl StudyBuilder {
     /// `base_samples` is the size of its own design; `None` to let the run choose.
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
-        self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });
+        self.low_fidelity.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
 
@@ -205,7 +205,7 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(sampler));
         let analysis = rules::checked_options(analysis, sampler, &space, outputs)?;
         let space = space.with_dependences(self.dependences)?;
-        rules::check_dependent(&analysis, &space, &self.lows)?;
+        rules::check_dependent(&analysis, &space, &self.low_fidelity)?;
         length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
         let (base_samples, plain_rows) = length.sizes(&analysis, &space, sampler, replicates)?;
@@ -215,8 +215,8 @@ impl StudyBuilder {
             let expected = format!("{least} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
         })?;
-        for (number, low) in self.lows.iter().enumerate() {
-            if self.lows[..number].iter().any(|other| other.name == low.name) {
+        for (number, low) in self.low_fidelity.iter().enumerate() {
+            if self.low_fidelity[..number].iter().any(|other| other.name == low.name) {
                 return Err(BuildError::Repeated { what: "cheaper model", name: low.name.clone() });
             }
             if let Some(problem) = low.refused(&*model, &space) {
@@ -250,7 +250,7 @@ impl StudyBuilder {
             design,
             analysis,
             target: length.target,
-            lows: self.lows,
+            low_fidelity: self.low_fidelity,
             source: StudySource { notes, ..StudySource::default() },
         })
     }

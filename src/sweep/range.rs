@@ -34,9 +34,7 @@ pub fn values_over_range(distribution: &Distribution, points: usize) -> Result<V
     };
     Ok(match distribution {
         Distribution::Constant(_) => vec![low],
-        whole if whole.is_complete() && high - low >= points as f64 => {
-            (0..points).map(|i| between(i).round()).collect()
-        }
+        whole if whole.is_whole() && high - low >= points as f64 => (0..points).map(|i| between(i).round()).collect(),
         _ => match distribution.levels() {
             Some(levels) => levels.into_iter().map(|(value, _)| value).collect(),
             None => (0..points).map(between).collect(),

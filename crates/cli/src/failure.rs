@@ -48,7 +48,7 @@ pub fn message(error: &anyhow::Error) -> String {
         Some(RunError::TooManyOutputs { .. }) => {
             ": use fewer base samples or outputs, intervals = \"batches\", or start again without saved outputs (--restart)"
         }
-        Some(RunError::JournalMismatch { kind: JournalMismatch::OtherModel { .. }, .. }) => {
+        Some(RunError::JournalMismatch { kind: JournalMismatch::OtherModel(_), .. }) => {
             ": its runs are from the earlier version. Undo the change, or start again with --restart"
         }
         Some(RunError::JournalMismatch { kind: JournalMismatch::PartlyMerged, .. }) => {

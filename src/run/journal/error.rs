@@ -62,21 +62,13 @@ pub enum JournalMismatch {
     /// The file cannot be read.
     #[error("cannot read the journal: {0}")]
     Unreadable(std::io::Error),
-    /// It is of another study.
-    #[error("the journal is of another study ({name}): {differences}")]
-    OtherStudy {
-        /// The name of that study.
-        name: String,
-        /// How its identity differs from that of the study to run.
-        differences: String,
-    },
-    /// It is of another version of the model.
-    #[error("{files} changed since the journal was written")]
-    OtherModel {
-        /// The names of the files that changed.
-        files: String,
-    },
-    /// Two shards are of different versions of the model.
+    /// It is of another study of this name, with these differences.
+    #[error("the journal is of another study ({0}): {1}")]
+    OtherStudy(String, String),
+    /// It is of another version of the model: these files changed.
+    #[error("{0} changed since the journal was written")]
+    OtherModel(String),
+    /// It was evaluated with other files than the journal of another shard.
     #[error("evaluated with another {files} than {}: evaluate one of the two shards again", .other.display())]
     OtherFiles {
         /// The names of the files that differ.

@@ -35,8 +35,8 @@ impl Distribution {
     /// ```
     pub fn integer(min: f64, max: f64) -> Result<Self, DistributionError> {
         for (parameter, value) in [("min", min), ("max", max)] {
-            let is_complete = value.fract() == 0.0 && value.abs() <= LARGEST;
-            number(parameter, value, is_complete, "be a whole number between -2^53 and 2^53")?;
+            let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST;
+            number(parameter, value, is_whole, "be a whole number between -2^53 and 2^53")?;
         }
         if min > max {
             return Err(order("min", min, "max", max));

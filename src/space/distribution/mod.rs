@@ -181,7 +181,7 @@ impl Distribution {
     }
 
     /// Returns whether its values are whole numbers: for integer and Poisson distributions, and for seeds.
-    pub fn is_complete(&self) -> bool {
+    pub fn is_whole(&self) -> bool {
         matches!(self, Self::Integer(_) | Self::Poisson(_) | Self::Seed(_))
     }
 
