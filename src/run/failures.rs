@@ -42,7 +42,7 @@ impl Tally {
 }
 
 /// Maximum number of reasons that are counted separately.
-pub const MAX_REASONS: usize = 100;
+const MAX_REASONS: usize = 100;
 
 /// The reason shown for rows whose reasons are not counted separately.
 const OTHERS: &str = "other reasons";

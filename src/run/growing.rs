@@ -32,8 +32,8 @@ pub struct GrowingRun<'a> {
     pub keeps_outputs: bool,
     /// Keeps outputs: rows that it already has are not evaluated.
     pub store: Option<&'a Store>,
-    /// Receives every block of evaluated outputs before its rows count as done.
-    pub sink: Option<&'a dyn OutputSink>,
+    /// Receives every block of evaluated rows before its rows count as done.
+    pub(crate) sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate evaluated so far.
     points: u64,
     pub(super) totals: Vec<Totals>,

@@ -30,7 +30,8 @@ use std::time::Duration;
 
 pub use each::run_each;
 pub use error::RunError;
-pub use failures::{Failures, MAX_REASONS, RowPosition, Tally};
+pub use failures::RowPosition;
+pub(crate) use failures::Tally;
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
@@ -43,7 +44,8 @@ pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
 pub use store::{RowBlock, Store};
 pub use table::{EvaluationStopped, TableRun};
-pub use totals::{OutputTotals, SAMPLE, Totals};
+pub(crate) use totals::SAMPLE;
+pub use totals::Totals;
 
 use crate::design::Design;
 use crate::model::{Model, RunContext};
@@ -74,7 +76,7 @@ pub struct Progress {
     pub done: u64,
     /// Those among them that were loaded when the run began.
     pub recalled: u64,
-    /// Model runs of the whole design.
+    /// Model runs of the design.
     pub total: u64,
     /// Model runs finished that have failed in at least one output.
     pub failed: u64,
@@ -85,7 +87,7 @@ pub struct Progress {
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
 pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
-/// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
+/// Runs all rows of the job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
 /// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
 ///
@@ -101,8 +103,8 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.totals)
 }
 
-/// A receiver of every block of evaluated outputs, called by the evaluating thread before its rows count as done.
-pub trait OutputSink: Sync {
+/// A receiver of every block of evaluated rows, called by the evaluating thread before its rows count as done.
+pub(crate) trait OutputSink: Sync {
     /// Returns whether it currently accepts outputs.
     fn is_open(&self) -> bool;
 

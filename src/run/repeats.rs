@@ -35,14 +35,14 @@ pub enum Irreproducible {
 }
 
 impl Repeats {
-    /// Returns a warning about an output of which `differing` rows changed; `None` if none changed. `has_noise` is
-    /// whether the model gets a seed with every row.
+    /// Returns a warning about an output of which `differing` rows changed, with what to do; `None` if none changed.
+    /// `has_noise` is whether the model gets a seed with every row.
     pub fn warning(&self, differing: u64, has_noise: bool) -> Option<String> {
         let cause = self.cause.filter(|_| differing > 0)?;
         let why = match (cause, has_noise) {
             (Irreproducible::Random, false) => {
                 "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
-                 all; give the model a seed with every row, so that the noise gets its own indices"
+                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
             }
             (Irreproducible::Random, true) => {
                 "the model draws random numbers without its seed, and the indices of the factors include their noise"
@@ -50,11 +50,14 @@ impl Repeats {
             (Irreproducible::Remembers, _) => {
                 "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
                  one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
-                 values only, with random numbers from a seed of its row"
+                 values only, with random numbers from a seed of its row (noise = \"seed\")"
             }
         };
         let rows = if self.rows == 1 { "row that was" } else { "rows that were" };
-        Some(format!("{differing} of {} {rows} run again gave other outputs: {why}", self.rows))
+        Some(format!(
+            "{differing} of {} {rows} run again gave other outputs: {why} (docs/stochastic-models.md)",
+            self.rows
+        ))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
 
 /// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
-pub const SAMPLE: u64 = 1 << 15;
+pub(crate) const SAMPLE: u64 = 1 << 15;
 
 /// Totals of one output.
 #[derive(Debug, Clone, Default)]

@@ -35,7 +35,7 @@ const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 
 /// A journal open for appending, by one process at a time.
 #[derive(Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     writer: Mutex<Writer>,
 }
 
@@ -137,7 +137,7 @@ fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
 ///
 /// # Errors
 /// [`JournalError`] if the file cannot be read, or is no journal.
-pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
+pub(crate) fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
     refuse_no_file(path)?;
     let bytes = read_whole(path).map_err(|source| JournalError::unreadable(path, source))?;
     read_journal(path, &bytes)
