@@ -18,7 +18,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 use crate::document::Document;
-use crate::errors::{failed, input, run as run_error};
+use crate::errors::{failed, input, run as run_error, study as study_error};
 use crate::function::{Caller, PythonModel, Stop};
 use crate::run::{Duty, Listeners, Told, attend};
 
@@ -43,8 +43,9 @@ struct Function {
 impl Study {
     /// The study of a text in the format of study files; `path` is for messages and names the study.
     #[staticmethod]
-    fn parse(text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        apportion_files::parse_study(text, &path, &overrides).map(|study| Self { study }).map_err(input)
+    fn parse(py: Python<'_>, text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        let study = apportion_files::parse_study(text, &path, &overrides);
+        study.map(|study| Self { study }).map_err(|error| study_error(py, &error))
     }
 
     /// The study of a file.

@@ -1,10 +1,8 @@
 //! Errors that end a run without its totals.
 
-use std::path::PathBuf;
-
 use thiserror::Error;
 
-use super::journal::{JournalError, JournalMismatch};
+use super::journal::JournalError;
 use super::{MAX_STORED_BYTES, RowPosition};
 use crate::design::DesignError;
 use crate::model::{GiveUp, RowFailure};
@@ -61,17 +59,9 @@ pub enum RunError {
         /// The cause.
         source: std::io::Error,
     },
-    /// The journal cannot be used.
+    /// The journal cannot be used, or does not fit the run.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The journal, or what was requested of it, does not fit the run.
-    #[error("{}: {kind}", .path.display())]
-    JournalMismatch {
-        /// The journal.
-        path: PathBuf,
-        /// What does not fit.
-        kind: JournalMismatch,
-    },
     /// A feature that needs a journal was used without one.
     #[error("{what} needs a journal")]
     NoJournal {

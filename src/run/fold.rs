@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::failures::RowPosition;
 use super::scratch::{BlockPlace, Scratch};
 use super::tracker::Tracker;
-use super::{BLOCK, FailurePolicy, GrowingRun, RowBlock, RunError, SAMPLE, Totals};
+use super::{BLOCK, FailurePolicy, GrowingRun, RowBlock, RunError, SAMPLE, Totals, record};
 use crate::design::BasePoints;
 use crate::estimate::part_length;
 
@@ -98,10 +98,10 @@ impl<'a> Fold<'_, 'a> {
         };
         if !self.run.store.is_some_and(|store| scratch.recall(store, place, count)) {
             scratch.run_rows(self.run.job, (&range.base, points.start, count), self.run.context)?;
-            if let Some(sink) = self.run.sink.filter(|sink| sink.is_open()) {
+            if let Some(journal) = self.run.journal.filter(|journal| journal.get().is_some()) {
                 let first = points.start * self.run.job.design.rows_per_point();
                 let block = RowBlock::from_batches(range.replicate, first, &scratch.batches);
-                sink.append(&block).map_err(|source| RunError::NotKept { source })?;
+                record(journal, &block)?;
             }
         }
         let totals = scratch.totals(self.run.job, place);

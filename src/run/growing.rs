@@ -1,16 +1,17 @@
 //! Runs whose totals can be extended by more base points.
 
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::executor::Executor;
 use super::fold::Fold;
+use super::journal::Journal;
 use super::remote::Remote;
 use super::rows::MissingRows;
 use super::tracker::Tracker;
-use super::{FailurePolicy, Job, MAX_STORED_BYTES, OutputSink, Progress, RunError, Store, Totals, threads_in_force};
+use super::{FailurePolicy, Job, MAX_STORED_BYTES, Progress, RunError, Store, Totals, threads_in_force};
 use crate::design::Design;
 use crate::model::RunContext;
 use apportion_base::clock::Instant;
@@ -32,8 +33,8 @@ pub struct GrowingRun<'a> {
     pub keeps_outputs: bool,
     /// Keeps outputs: rows that it already has are not evaluated.
     pub store: Option<&'a Store>,
-    /// Receives every block of evaluated rows before its rows count as done.
-    pub(crate) sink: Option<&'a dyn OutputSink>,
+    /// Records every block of evaluated rows, once it is open.
+    pub(crate) journal: Option<&'a OnceLock<Journal>>,
     /// Base points of every replicate evaluated so far.
     points: u64,
     pub(super) totals: Vec<Totals>,
@@ -58,7 +59,7 @@ impl<'a> GrowingRun<'a> {
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
             store: None,
-            sink: None,
+            journal: None,
             points: 0,
             totals: Vec::new(),
         })
@@ -152,7 +153,7 @@ impl<'a> GrowingRun<'a> {
         store: &Store,
         on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<(), RunError> {
-        let (missing, before) = MissingRows::new(self.job, rows, store, self.sink, self.failures);
+        let (missing, before) = MissingRows::new(self.job, rows, store, self.journal, self.failures);
         let before = Progress { elapsed: self.start.elapsed(), ..before };
         if before.done > 0 {
             on_progress(before);

@@ -26,6 +26,7 @@ mod table;
 mod totals;
 mod tracker;
 
+use std::sync::OnceLock;
 use std::time::Duration;
 
 pub use each::run_each;
@@ -33,13 +34,14 @@ pub use error::RunError;
 pub use failures::RowPosition;
 pub(crate) use failures::Tally;
 pub use growing::GrowingRun;
+use journal::Journal;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
 pub(crate) use remote::{DesignKey, Remote, Reply, Request};
 pub(crate) use repeats::repeat_rows;
 pub use repeats::{Irreproducible, Repeats};
 pub use rows::RowValues;
-pub(crate) use rows::answered;
+pub(crate) use rows::{RowWorker, answered};
 pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
 pub use store::{RowBlock, Store};
@@ -103,16 +105,9 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.totals)
 }
 
-/// A receiver of every block of evaluated rows, called by the evaluating thread before its rows count as done.
-pub(crate) trait OutputSink: Sync {
-    /// Returns whether it currently accepts outputs.
-    fn is_open(&self) -> bool;
-
-    /// Accepts a block.
-    ///
-    /// # Errors
-    /// Why the block cannot be saved, which ends the run.
-    fn append(&self, block: &RowBlock) -> std::io::Result<()>;
+/// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
+pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {
+    journal.get().map_or(Ok(()), |journal| journal.append(block)).map_err(|source| RunError::NotKept { source })
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

@@ -1,10 +1,9 @@
 //! Pilot runs, which predict how long a design will take.
 
-use std::time::Instant;
-
 use super::repeats::compare;
-use super::{Job, Repeats, RowValues, RunError, failed_rows, threads_in_force};
-use crate::model::{Batch, RunContext, Worker};
+use super::rows::{RowRange, RowWorker};
+use super::{Job, Repeats, RunError, failed_rows, threads_in_force};
+use crate::model::RunContext;
 
 /// A few runs of a design, and the predicted time of all of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,50 +31,30 @@ impl Pilot {
     pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
         const MIN_SECONDS: f64 = 0.3;
         const MAX_ROWS: u64 = 1 << 18;
-        let Job { design, model, .. } = job;
-        let mut worker =
-            PilotWorker { job, worker: model.worker(context), batch: Batch::new(model), values: RowValues::default() };
-        let first = worker.seconds_of(1)?;
+        let Job { design, space, model } = job;
+        let mut worker = RowWorker::new(model, context);
+        let mut seconds_of = |rows: u64| {
+            let seconds = worker.run(space, design, &RowRange { replicate: 0, rows: 0..rows });
+            worker.batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
+        };
+        let first = seconds_of(1)?;
         let rows = design.points_per_replicate() * design.rows_per_point();
-        let (mut runs, mut seconds) = (1, worker.seconds_of(1)?);
+        let (mut runs, mut seconds) = (1, seconds_of(1)?);
         let startup = (first - seconds).max(0.0);
         while seconds < MIN_SECONDS && runs < rows.min(MAX_ROWS) {
             runs = (runs * 4).min(rows).min(MAX_ROWS);
-            seconds = worker.seconds_of(runs)?;
+            seconds = seconds_of(runs)?;
         }
         // Every batch begins with the first row, and the last one has all rows, with their failures.
         let batch = worker.batch;
-        let repeats = if model.may_be_random() {
+        let mut repeats = None;
+        if model.may_be_random() {
             let first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
-            Some(compare(job, context, &[(0, 0)], &[first_row])?)
-        } else {
-            None
-        };
+            repeats = Some(compare(job, context, &[(0, 0)], &[first_row])?);
+        }
         let workers = model.concurrency().unwrap_or_else(|| threads_in_force(0)).max(1);
         let all_rows = seconds * design.rows() as f64 / runs as f64 / workers as f64;
         let reason = batch.failures().first().map(|(.., reason)| reason.to_string());
         Ok(Self { runs, seconds: all_rows + startup, startup, repeats, failed: failed_rows(&batch), reason })
-    }
-}
-
-/// The worker of a pilot, and the outputs of its last runs.
-struct PilotWorker<'a> {
-    job: Job<'a>,
-    worker: Box<dyn Worker + 'a>,
-    batch: Batch,
-    values: RowValues,
-}
-
-impl PilotWorker<'_> {
-    /// Runs the first `rows` rows of the design; returns the seconds that they took.
-    fn seconds_of(&mut self, rows: u64) -> Result<f64, RunError> {
-        let columns = self.values.values(self.job.space, self.job.design, 0, 0..rows);
-        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        self.batch.reset(rows as usize);
-        let start = Instant::now();
-        self.worker.run(&inputs, &mut self.batch);
-        let seconds = start.elapsed().as_secs_f64();
-        self.batch.settle();
-        self.batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
     }
 }

@@ -3,15 +3,17 @@
 
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
+use super::journal::Journal;
 use super::store::{RowBlock, Store};
-use super::{FailurePolicy, Job, OutputSink, Progress, RowPosition, RunError};
+use super::{FailurePolicy, Job, Progress, RowPosition, RunError, record};
 use crate::design::{BasePoints, Design};
-use crate::model::Batch;
+use crate::model::{Batch, Model, RunContext, Worker};
 use crate::space::Space;
+use apportion_base::clock::Instant;
 
 /// Consecutive rows of one replicate, or of a table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -48,8 +50,7 @@ pub(crate) trait RowSource: Sync {
 pub(crate) struct MissingRows<'a> {
     pub job: Job<'a>,
     pub store: &'a Store,
-    /// Receives every block before the store does.
-    sink: Option<&'a dyn OutputSink>,
+    journal: Option<&'a OnceLock<Journal>>,
     failures: FailurePolicy,
     waiting: Mutex<Waiting>,
 }
@@ -67,7 +68,7 @@ impl<'a> MissingRows<'a> {
         job: Job<'a>,
         rows: &[(u64, Range<u64>)],
         store: &'a Store,
-        sink: Option<&'a dyn OutputSink>,
+        journal: Option<&'a OnceLock<Journal>>,
         failures: FailurePolicy,
     ) -> (Self, Progress) {
         let mut existing = Progress::default();
@@ -82,14 +83,14 @@ impl<'a> MissingRows<'a> {
         }
         existing.recalled = existing.done;
         let waiting = Mutex::new(Waiting { ranges, rows: existing.total - existing.done });
-        (Self { job, store, sink, failures, waiting }, existing)
+        (Self { job, store, journal, failures, waiting }, existing)
     }
 
-    /// Saves blocks of rows in the sink and the store; returns the number of their rows, and how many of them failed.
+    /// Saves blocks of rows in the journal and the store; returns the number of their rows, and how many of them failed.
     pub fn keep(&self, blocks: &[RowBlock]) -> Result<(u64, u64), RunError> {
         let (mut rows, mut failed) = (0, 0);
         for block in blocks {
-            self.sink.map_or(Ok(()), |sink| sink.append(block)).map_err(|source| RunError::NotKept { source })?;
+            self.journal.map_or(Ok(()), |journal| record(journal, block))?;
             self.store.insert(block);
             rows += block.rows(self.store.outputs());
             failed += block.failed_rows().len() as u64;
@@ -202,6 +203,32 @@ impl RowValues {
             }
         }
         &self.inputs
+    }
+}
+
+/// A worker of a model, and the outputs of the rows that it evaluated last.
+pub(crate) struct RowWorker<'a> {
+    worker: Box<dyn Worker + 'a>,
+    pub batch: Batch,
+    /// Of one design.
+    pub values: RowValues,
+}
+
+impl<'a> RowWorker<'a> {
+    pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
+        Self { worker: model.worker(context), batch: Batch::new(model), values: RowValues::default() }
+    }
+
+    /// Evaluates rows of `design`; returns the seconds that they took.
+    pub fn run(&mut self, space: &Space, design: &Design, range: &RowRange) -> f64 {
+        let columns = self.values.values(space, design, range.replicate, range.rows.clone());
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        self.batch.reset(range.count() as usize);
+        let start = Instant::now();
+        self.worker.run(&inputs, &mut self.batch);
+        let seconds = start.elapsed().as_secs_f64();
+        self.batch.settle();
+        seconds
     }
 }
 

@@ -9,10 +9,8 @@ use serde_json::{Value, json};
 use super::model_files::{differing, digests};
 use super::{Resume, Runner};
 use crate::model::Messages;
-use crate::run::journal::{
-    Contents, Journal, JournalError, JournalMismatch, differences, read_journal_file, with_ending,
-};
-use crate::run::{OutputSink, Progress, RowBlock, RunError, Shard, Store};
+use crate::run::journal::{Contents, Journal, JournalProblem, differences, read_journal_file, with_ending};
+use crate::run::{Progress, RunError, Shard, Store};
 use crate::study::Study;
 
 /// Runs that are expected to take longer than this are worth a journal.
@@ -25,7 +23,7 @@ const MIN_ELAPSED: Duration = Duration::from_millis(200);
 pub(super) struct RunJournal {
     /// Outputs that were recorded when the journal was opened.
     pub store: Store,
-    open: OnceLock<Journal>,
+    pub open: OnceLock<Journal>,
     /// Path and header of the journal of a run that is not yet expected to be long.
     waiting: Mutex<Option<(PathBuf, Value)>>,
 }
@@ -80,16 +78,6 @@ impl RunJournal {
     }
 }
 
-impl OutputSink for RunJournal {
-    fn is_open(&self) -> bool {
-        self.open.get().is_some()
-    }
-
-    fn append(&self, block: &RowBlock) -> std::io::Result<()> {
-        self.open.get().map_or(Ok(()), |journal| journal.append(block))
-    }
-}
-
 /// Opens the journal of `study` at `path` for parts that were evaluated with `files`. An existing journal is used if it
 /// was evaluated with the same files, and otherwise moved aside.
 pub(super) fn open_for_parts(
@@ -129,8 +117,8 @@ pub(super) fn open(
     let changed = another_model(&contents.header, &files);
     let reason = match (other, changed) {
         _ if resume == Resume::Restart => Some("restarted".to_owned()),
-        (Some(other), _) if resume.is_required() => return Err(mismatch(path, other)),
-        (_, Some(changed)) if !contents.blocks.is_empty() => return Err(mismatch(path, changed)),
+        (Some(other), _) if resume.is_required() => return Err(other.at(path).into()),
+        (_, Some(changed)) if !contents.blocks.is_empty() => return Err(changed.at(path).into()),
         (other, changed) => other.or(changed).map(|kind| kind.to_string()),
     };
     if let Some(reason) = reason {
@@ -166,13 +154,14 @@ pub(super) fn open(
 fn resume_file(path: &Path, resume: Resume, messages: &Messages) -> Result<Option<(Journal, Contents)>, RunError> {
     if !path.exists() {
         if resume.is_required() {
-            return Err(mismatch(path, JournalMismatch::Missing));
+            return Err(JournalProblem::Missing.at(path).into());
         }
         return Ok(None);
     }
     match Journal::resume(path) {
-        Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }))
-            if !resume.is_required() =>
+        Err(error)
+            if !resume.is_required()
+                && matches!(error.problem, JournalProblem::Invalid(_) | JournalProblem::OtherFormat(_)) =>
         {
             move_aside(path, &error.to_string(), messages)?;
             Ok(None)
@@ -191,15 +180,15 @@ fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
 }
 
 /// Returns how the study of a journal with this header differs from `study`, if it does.
-fn another_study(study: &Study, header: &Value) -> Option<JournalMismatch> {
+fn another_study(study: &Study, header: &Value) -> Option<JournalProblem> {
     let differences = differences(&header["identity"], &study.identity()).join("; ");
     let name = header["study"].as_str().unwrap_or_default().to_owned();
-    (!differences.is_empty()).then_some(JournalMismatch::OtherStudy(name, differences))
+    (!differences.is_empty()).then_some(JournalProblem::OtherStudy(name, differences))
 }
 
 /// Returns how the model of a journal with this header differs from one with `files` (path: digest), if it does.
-fn another_model(header: &Value, files: &Value) -> Option<JournalMismatch> {
-    differing(&header["files"], files).map(JournalMismatch::OtherModel)
+fn another_model(header: &Value, files: &Value) -> Option<JournalProblem> {
+    differing(&header["files"], files).map(JournalProblem::OtherModel)
 }
 
 /// Renames a journal to an unused name.
@@ -214,21 +203,14 @@ fn move_aside(path: &Path, why: &str, messages: &Messages) -> Result<(), RunErro
 
 fn in_the_way(path: &Path, source: &std::io::Error) -> RunError {
     let source = std::io::Error::new(source.kind(), format!("cannot move it aside: {source}"));
-    JournalError::Unwritable { path: path.to_owned(), source }.into()
-}
-
-pub(super) fn mismatch(path: &Path, kind: JournalMismatch) -> RunError {
-    RunError::JournalMismatch { path: path.to_owned(), kind }
+    JournalProblem::Unwritable(source).at(path).into()
 }
 
 /// Reads the journal at `path`, which must belong to `study`, without locking it.
 pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
-    let contents = read_journal_file(path).map_err(|error| match error {
-        JournalError::Unreadable { source, .. } => mismatch(path, JournalMismatch::Unreadable(source)),
-        error => error.into(),
-    })?;
+    let contents = read_journal_file(path)?;
     match another_study(study, &contents.header) {
-        Some(kind) => Err(mismatch(path, kind)),
+        Some(problem) => Err(problem.at(path).into()),
         None => Ok(contents),
     }
 }
@@ -236,8 +218,8 @@ pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
 /// Counts the runs of `study` recorded in the journal at `path`.
 pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
     let contents = read(study, path)?;
-    if let Some(kind) = another_model(&contents.header, &digests(study)) {
-        return Err(mismatch(path, kind));
+    if let Some(problem) = another_model(&contents.header, &digests(study)) {
+        return Err(problem.at(path).into());
     }
     Ok(rows_on_record(study, &recorded(study, &contents)))
 }

@@ -9,7 +9,7 @@ use crate::analysis::{LowFidelityTotals, outputs_kept};
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Messages, Model, RunContext};
 use crate::run::journal::with_ending;
-use crate::run::{GrowingRun, Job, OutputSink as _, RunError};
+use crate::run::{GrowingRun, Job, RunError};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
 use crate::surrogate::low_fidelity::OwnOutputs;
@@ -146,8 +146,8 @@ impl<'a> TimedRun<'a> {
         let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
         let mut run = GrowingRun::new(job, context, runner.threads)?.with_remote(runner.remote_for(subject));
         run.keeps_outputs = true;
-        run.sink = Some(&part.journal);
-        let is_stored = part.model.is_slow() || part.journal.is_open() || runner.remote.is_some();
+        run.journal = Some(&part.journal.open);
+        let is_stored = part.model.is_slow() || part.journal.open.get().is_some() || runner.remote.is_some();
         run.store = is_stored.then_some(&part.journal.store);
         Ok(Self { part, run, seconds: 0.0 })
     }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::journal::{self, RunJournal, mismatch, recorded};
+use super::journal::{self, RunJournal, recorded};
 use super::model_files::differing;
 use crate::model::Messages;
-use crate::run::journal::JournalMismatch;
-use crate::run::{OutputSink as _, RunError, Shard, Store};
+use crate::run::journal::JournalProblem;
+use crate::run::{RunError, Shard, Store, record};
 use crate::study::Study;
 
 /// Returns the journal at `path` extended by the contents of `journals`, with all rows of the design.
@@ -20,8 +20,8 @@ pub(super) fn merged(
     messages: &Messages,
 ) -> Result<RunJournal, RunError> {
     let files = files_of_all(study, journals)?;
-    let record = journal::open_for_parts(study, path, &files, messages)?;
-    let store = &record.store;
+    let merged = journal::open_for_parts(study, path, &files, messages)?;
+    let store = &merged.store;
     let mut shards = Shards::default();
     for journal in journals {
         let contents = journal::read(study, journal)?;
@@ -32,18 +32,18 @@ pub(super) fn merged(
             let gaps = store.missing(block.replicate, rows.clone());
             // Counts over a block cannot be divided.
             if block.is_counted() && gaps.iter().any(|gap| *gap != rows) {
-                return Err(mismatch(journal, JournalMismatch::PartlyMerged));
+                return Err(JournalProblem::PartlyMerged.at(journal).into());
             }
             for block in gaps.into_iter().filter_map(|gap| part.block(block.replicate, gap)) {
                 store.insert(&block);
-                record.append(&block).map_err(|source| RunError::NotKept { source })?;
+                record(&merged.open, &block)?;
             }
         }
     }
-    record.sync()?;
+    merged.sync()?;
     let (total, present) = (study.design.rows(), journal::rows_on_record(study, store));
     if present == total {
-        return Ok(record);
+        return Ok(merged);
     }
     Err(RunError::Incomplete {
         missing: total - present,
@@ -59,7 +59,7 @@ fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> 
         let files = journal::read(study, journal)?.header["files"].take();
         let (other, expected) = first.get_or_insert_with(|| (journal, files.clone()));
         if let Some(files) = differing(expected, &files) {
-            return Err(mismatch(journal, JournalMismatch::OtherFiles { files, other: other.clone() }));
+            return Err(JournalProblem::OtherFiles { files, other: other.clone() }.at(journal).into());
         }
     }
     Ok(first.map_or(Value::Null, |(_, files)| files))

@@ -21,8 +21,7 @@ use crate::analysis::{FinishedRun, LowFidelityTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
 use crate::result::{StudyResult, Warning};
 use crate::run::{
-    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows,
-    threads_in_force,
+    GrowingRun, Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows, threads_in_force,
 };
 use crate::study::Study;
 
@@ -221,7 +220,7 @@ impl<'a> Runner<'a> {
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
     /// merged runs are always recorded: they may have cost much elsewhere.
     /// # Errors
-    /// As for [`run`](Self::run), and [`RunError::JournalMismatch`] if a part is of another study or model;
+    /// As for [`run`](Self::run), and [`RunError::Journal`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
     pub fn merge(self, journals: &[PathBuf]) -> Result<StudyResult, RunError> {
         let context = self.context();
@@ -275,7 +274,7 @@ impl<'a> Runner<'a> {
         let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
         run.failures = self.study.analysis.failures;
         run.keeps_outputs = self.study.needs_outputs();
-        run.sink = Some(journal);
+        run.journal = Some(&journal.open);
         Ok(run)
     }
 
@@ -299,7 +298,7 @@ impl<'a> Runner<'a> {
             }
         }
         let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
-        let is_stored = journal.is_open() || model.is_slow() || self.remote.is_some();
+        let is_stored = journal.open.get().is_some() || model.is_slow() || self.remote.is_some();
         let store = self.store.or(is_stored.then_some(&journal.store));
         let low_studies = study.low_fidelity.iter().map(|low| LowFidelityStudy::new(self, low, context.messages()));
         let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;

@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::design::Design;
-use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
-use crate::run::{DesignKey, Reply, Request, RowValues, answered};
+use crate::model::{Model, RowFailure, RunContext};
+use crate::run::{DesignKey, Reply, Request, RowValues, RowWorker, answered};
 use crate::study::Study;
-use apportion_base::clock::Instant;
 
 /// The source of requests and the receiver of replies.
 pub trait Requests {
@@ -46,7 +45,12 @@ impl WorkerStudy {
                 None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
                     let server = servers.entry(request.subject);
-                    server.or_insert_with(|| RemoteServer::new(&self.study, model.as_ref(), context)).reply(request)
+                    let server = server.or_insert_with(|| RemoteServer {
+                        study: &self.study,
+                        worker: RowWorker::new(model.as_ref(), context),
+                        current: None,
+                    });
+                    server.reply(request)
                 }
             };
             requests.reply(reply.write());
@@ -58,36 +62,26 @@ impl WorkerStudy {
 /// A worker of one model, which evaluates rows for other processes.
 struct RemoteServer<'a> {
     study: &'a Study,
-    worker: Box<dyn Worker + 'a>,
-    batch: Batch,
-    /// The design of the last request, and its computed points.
-    current: Option<(DesignKey, Design, RowValues)>,
+    worker: RowWorker<'a>,
+    /// The design of the last request.
+    current: Option<(DesignKey, Design)>,
 }
 
-impl<'a> RemoteServer<'a> {
-    fn new(study: &'a Study, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
-        Self { study, worker: model.worker(context), batch: Batch::new(model), current: None }
-    }
-
+impl RemoteServer<'_> {
     /// Evaluates the rows of a request, of a design that differs from that of the study by its key.
     fn reply(&mut self, Request { design: key, range, .. }: Request) -> Reply {
-        let previous = self.current.take().filter(|(previous, ..)| *previous == key);
-        self.current = previous.or_else(|| {
-            let design = key.design(&self.study.design)?;
-            Some((key, design, RowValues::default()))
-        });
-        let Some((_, design, values)) = &mut self.current else { return refusal("an unknown design") };
+        if self.current.as_ref().is_none_or(|(current, _)| *current != key) {
+            self.current = key.design(&self.study.design).map(|design| (key, design));
+            self.worker.values = RowValues::default();
+        }
+        let Some((_, design)) = &self.current else { return refusal("an unknown design") };
         let rows = design.points_per_replicate() * design.rows_per_point();
         if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
             return refusal("rows that are not in the design");
         }
-        let begun = Instant::now();
-        let inputs = values.values(&self.study.space, design, range.replicate, range.rows.clone());
-        self.batch.reset(range.count() as usize);
-        self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
-        self.batch.settle();
-        let seconds = begun.elapsed().as_secs_f64();
-        Reply { seconds, given_up: self.batch.given_up().cloned(), blocks: answered(&range, &self.batch) }
+        let seconds = self.worker.run(&self.study.space, design, &range);
+        let batch = &self.worker.batch;
+        Reply { seconds, given_up: batch.given_up().cloned(), blocks: answered(&range, batch) }
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use apportion::design::DesignError;
 use apportion::result::ReadError;
-use apportion::run::journal::{JournalError, JournalMismatch};
+use apportion::run::journal::{JournalError, JournalProblem};
 use apportion::run::{EvaluationStopped, RunError};
 use apportion::screening::ScreeningError;
 use apportion::sweep::SweepError;
@@ -48,10 +48,10 @@ pub fn message(error: &anyhow::Error) -> String {
         Some(RunError::TooManyOutputs { .. }) => {
             ": use fewer base samples or outputs, intervals = \"batches\", or start again without saved outputs (--restart)"
         }
-        Some(RunError::JournalMismatch { kind: JournalMismatch::OtherModel(_), .. }) => {
+        Some(RunError::Journal(JournalError { problem: JournalProblem::OtherModel(_), .. })) => {
             ": its runs are from the earlier version. Undo the change, or start again with --restart"
         }
-        Some(RunError::JournalMismatch { kind: JournalMismatch::PartlyMerged, .. }) => {
+        Some(RunError::Journal(JournalError { problem: JournalProblem::PartlyMerged, .. })) => {
             ": merge the shards of one run only, into a folder without a journal (--out)"
         }
         _ => "",
@@ -68,8 +68,8 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
     if let Some(error) = error.downcast_ref::<RunError>() {
         match error {
             RunError::GaveUp(give_up) => give_up.is_bad_input,
-            RunError::Journal(JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }) => true,
-            _ => matches!(error, RunError::JournalMismatch { .. } | RunError::Journal(JournalError::NoFile { .. })),
+            RunError::Journal(JournalError { problem, .. }) => problem.is_bad_input(),
+            _ => false,
         }
     } else if let Some(error) = error.downcast_ref::<ArtefactError>() {
         match error {

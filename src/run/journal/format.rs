@@ -7,13 +7,12 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::error::JournalError;
+use super::error::{JournalError, JournalProblem};
 use crate::model::{CounterKind, Counts, RowFailure};
 use crate::run::RowBlock;
 
 const MAGIC: &[u8] = b"apportion journal";
 const VERSION: u32 = 1;
-const CUT_SHORT: &str = "its header is cut short";
 
 /// Bytes that remain to be read.
 pub(in crate::run) struct Reader<'a> {
@@ -102,19 +101,7 @@ fn checksum(length: &[u8], body: &[u8]) -> u32 {
 /// [`JournalError`] if it is no journal, or of another version. Damaged records are cut off.
 pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError> {
     let mut reader = Reader { bytes };
-    if reader.take(MAGIC.len()) != Some(MAGIC) {
-        let reason = if bytes.is_empty() { "the file is empty" } else { "it does not begin like a journal" };
-        return Err(JournalError::invalid(path, reason));
-    }
-    let version = reader.u32().ok_or_else(|| JournalError::invalid(path, CUT_SHORT))?;
-    if version != VERSION {
-        return Err(JournalError::OtherVersion { path: path.to_owned(), version });
-    }
-    let (checksum, text) = header_text(&mut reader).ok_or_else(|| JournalError::invalid(path, CUT_SHORT))?;
-    if crc32fast::hash(text) != checksum {
-        return Err(JournalError::invalid(path, "its header is damaged"));
-    }
-    let header = serde_json::from_slice(text).map_err(|error| JournalError::invalid(path, &error.to_string()))?;
+    let header = header(&mut reader).map_err(|problem| problem.at(path))?;
     let mut blocks = Vec::new();
     let mut cut_off = reader.bytes.len();
     while let Some(block) = record(&mut reader) {
@@ -124,10 +111,29 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     Ok(Contents { header, blocks, length: (bytes.len() - cut_off) as u64, cut_off: cut_off as u64 })
 }
 
-/// Returns the checksum and the text of the header.
-fn header_text<'a>(reader: &mut Reader<'a>) -> Option<(u32, &'a [u8])> {
-    let (length, checksum) = (reader.u32()?, reader.u32()?);
-    Some((checksum, reader.take(length as usize)?))
+fn header(reader: &mut Reader<'_>) -> Result<Value, JournalProblem> {
+    if reader.bytes.is_empty() {
+        return Err(JournalProblem::Invalid("the file is empty".to_owned()));
+    }
+    if reader.take(MAGIC.len()) != Some(MAGIC) {
+        return Err(JournalProblem::Invalid("it does not begin like a journal".to_owned()));
+    }
+    let header = header_text(reader);
+    let (version, checksum, text) =
+        header.ok_or_else(|| JournalProblem::Invalid("its header is cut short".to_owned()))?;
+    if version != VERSION {
+        return Err(JournalProblem::OtherFormat(version));
+    }
+    if crc32fast::hash(text) != checksum {
+        return Err(JournalProblem::Invalid("its header is damaged".to_owned()));
+    }
+    serde_json::from_slice(text).map_err(|error| JournalProblem::Invalid(error.to_string()))
+}
+
+/// Returns the version, and the checksum and the text of the header.
+fn header_text<'a>(reader: &mut Reader<'a>) -> Option<(u32, u32, &'a [u8])> {
+    let (version, length, checksum) = (reader.u32()?, reader.u32()?, reader.u32()?);
+    Some((version, checksum, reader.take(length as usize)?))
 }
 
 /// Reads the next record, if it is complete.

@@ -50,7 +50,13 @@ fn a_truncated_journal_keeps_every_complete_record_and_resumes() {
     let ends: Vec<usize> = (0..=3).map(|count| std::fs::read(&written(&blocks[..count]).1).unwrap().len()).collect();
     for length in 0..bytes.len() {
         if length < ends[0] {
-            assert!(matches!(read_journal(&path, &bytes[..length]), Err(JournalError::NotAJournal { .. })), "{length}");
+            assert!(
+                matches!(
+                    read_journal(&path, &bytes[..length]),
+                    Err(JournalError { problem: JournalProblem::Invalid(_), .. })
+                ),
+                "{length}"
+            );
             continue;
         }
         let whole = ends.iter().rposition(|end| *end <= length).unwrap();
@@ -104,9 +110,12 @@ fn paths_that_are_not_files_are_refused_at_once() {
     let pipe = folder.path().join("pipe");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     for path in [&pipe, Path::new("/dev/null"), folder.path()] {
-        assert!(matches!(Journal::create(path, &json!({})), Err(JournalError::NoFile { .. })), "{path:?}");
-        assert!(matches!(Journal::resume(path), Err(JournalError::NoFile { .. })));
-        assert!(matches!(read_journal_file(path), Err(JournalError::NoFile { .. })));
+        assert!(
+            matches!(Journal::create(path, &json!({})), Err(JournalError { problem: JournalProblem::NoFile, .. })),
+            "{path:?}"
+        );
+        assert!(matches!(Journal::resume(path), Err(JournalError { problem: JournalProblem::NoFile, .. })));
+        assert!(matches!(read_journal_file(path), Err(JournalError { problem: JournalProblem::NoFile, .. })));
     }
 }
 
@@ -115,9 +124,9 @@ fn two_runs_cannot_write_one_journal() {
     let (_folder, path) = written(&[]);
     let (journal, _) = Journal::resume(&path).unwrap();
     let refused = Journal::resume(&path).unwrap_err();
-    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    assert!(matches!(refused.problem, JournalProblem::InUse), "{refused}");
     let refused = Journal::create(&path, &json!({})).unwrap_err();
-    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    assert!(matches!(refused.problem, JournalProblem::InUse), "{refused}");
     drop(journal);
     assert!(Journal::resume(&path).is_ok());
 }
