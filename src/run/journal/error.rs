@@ -63,6 +63,10 @@ impl JournalProblem {
         !matches!(self, Self::Unwritable(_) | Self::InUse)
     }
 
+    pub(super) fn invalid(reason: &str) -> Self {
+        Self::Invalid(reason.to_owned())
+    }
+
     /// Returns this problem of the journal at `path`.
     pub(crate) fn at(self, path: &Path) -> JournalError {
         JournalError { path: path.to_owned(), problem: self }

@@ -112,28 +112,29 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
 }
 
 fn header(reader: &mut Reader<'_>) -> Result<Value, JournalProblem> {
+    const CUT_SHORT: &str = "its header is cut short";
     if reader.bytes.is_empty() {
-        return Err(JournalProblem::Invalid("the file is empty".to_owned()));
+        return Err(JournalProblem::invalid("the file is empty"));
     }
     if reader.take(MAGIC.len()) != Some(MAGIC) {
-        return Err(JournalProblem::Invalid("it does not begin like a journal".to_owned()));
+        return Err(JournalProblem::invalid("it does not begin like a journal"));
     }
-    let header = header_text(reader);
-    let (version, checksum, text) =
-        header.ok_or_else(|| JournalProblem::Invalid("its header is cut short".to_owned()))?;
-    if version != VERSION {
-        return Err(JournalProblem::OtherFormat(version));
+    match reader.u32() {
+        Some(VERSION) => (),
+        Some(version) => return Err(JournalProblem::OtherFormat(version)),
+        None => return Err(JournalProblem::invalid(CUT_SHORT)),
     }
+    let Some((checksum, text)) = header_text(reader) else { return Err(JournalProblem::invalid(CUT_SHORT)) };
     if crc32fast::hash(text) != checksum {
-        return Err(JournalProblem::Invalid("its header is damaged".to_owned()));
+        return Err(JournalProblem::invalid("its header is damaged"));
     }
-    serde_json::from_slice(text).map_err(|error| JournalProblem::Invalid(error.to_string()))
+    serde_json::from_slice(text).map_err(|error| JournalProblem::invalid(&error.to_string()))
 }
 
-/// Returns the version, and the checksum and the text of the header.
-fn header_text<'a>(reader: &mut Reader<'a>) -> Option<(u32, u32, &'a [u8])> {
-    let (version, length, checksum) = (reader.u32()?, reader.u32()?, reader.u32()?);
-    Some((version, checksum, reader.take(length as usize)?))
+/// Returns the checksum and the text of the header.
+fn header_text<'a>(reader: &mut Reader<'a>) -> Option<(u32, &'a [u8])> {
+    let (length, checksum) = (reader.u32()?, reader.u32()?);
+    Some((checksum, reader.take(length as usize)?))
 }
 
 /// Reads the next record, if it is complete.
