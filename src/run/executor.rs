@@ -29,8 +29,8 @@ const BATCHES_AHEAD: usize = 2;
 /// Stack size in bytes of a thread that serves one remote worker; there may be thousands of them.
 const STACK: usize = 1 << 19;
 
-/// The workers of a model for one run: threads of this process, each with a worker of its own that lives as long as the
-/// run. Their number is the [concurrency](Model::concurrency) of the model, or else the number of threads.
+/// The workers of a model for one run: threads of this process, each with a worker that lives as long as the run. Their
+/// number is the [concurrency](Model::concurrency) of the model, or else the number of threads.
 ///
 /// [Remote workers](super::RemoteWorkers) (MPI ranks, an executor of another language) join in
 /// [`execute`](Self::execute): each has a thread that takes batches for it and returns its outputs.
@@ -54,7 +54,7 @@ impl<'a> Executor<'a> {
         Self { model, context, workers, remote: None, idle: Mutex::default() }
     }
 
-    /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of the whole run.
+    /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of all rows of the run.
     ///
     /// # Errors
     /// [`RunError`] if the run is to stop; rows that the source has accepted by then are kept.
@@ -76,7 +76,7 @@ impl<'a> Executor<'a> {
         if workers == 1 && remote_count == 0 {
             execution.work();
         } else {
-            // Workers may wait for programs and other machines: they get threads of their own, not the pool's.
+            // Workers may wait for programs and other machines: they get separate threads, not the pool's.
             std::thread::scope(|scope| {
                 for _ in 0..local_count {
                     scope.spawn(move || execution.work());

@@ -93,7 +93,7 @@ impl RowBlock {
         between.map(|rows| self.part(rows, outputs)).collect()
     }
 
-    /// Returns the rows `rows`, all of them its own, without flags and counts.
+    /// Returns the rows `rows`, all of them in the block, without flags and counts.
     fn part(&self, rows: Range<u64>, outputs: usize) -> Self {
         let (from, end) = ((rows.start - self.first) as usize, (rows.end - self.first) as usize);
         let failures = self.failures.iter().filter(|(row, ..)| (from..end).contains(&(*row as usize)));

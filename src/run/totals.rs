@@ -10,7 +10,7 @@ pub(crate) const SAMPLE: u64 = 1 << 15;
 /// Totals of one output.
 #[derive(Debug, Clone, Default)]
 pub struct OutputTotals {
-    /// The moments for the indices, each over every base point at which its own rows have a value.
+    /// The moments for the indices, each over every base point at which the rows that it needs have a value.
     pub moments: MomentParts,
     /// Moments of every value of the rows A and B.
     pub values: CentralMoments,

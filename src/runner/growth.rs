@@ -12,7 +12,7 @@ use apportion_base::clock::Instant;
 /// rarely may not vary in a net of few points.
 const MIN_BASE_SAMPLES: u64 = 1 << 12;
 
-/// The same where too many runs fail for there to be indices: the share of failures is known much sooner.
+/// The same where too many runs fail for there to be indices: fewer runs show the share of failures.
 const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a growing run stopped, and the surrogate estimates of every output.

@@ -198,7 +198,7 @@ impl<'a> Runner<'a> {
     ///
     /// # Errors
     /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that
-    /// chooses its own size.
+    /// chooses its size.
     pub fn run_shard(self, shard: Shard) -> Result<u64, RunError> {
         if self.study.target.grows() {
             return Err(RunError::NoSize);

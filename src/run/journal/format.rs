@@ -43,7 +43,7 @@ pub struct Contents {
     pub header: Value,
     /// Its blocks, in the order in which they were written: later ones replace earlier ones.
     pub blocks: Vec<RowBlock>,
-    /// Bytes up to the end of the last whole record.
+    /// Bytes up to the end of the last complete record.
     pub length: u64,
     /// Bytes after it: a record that was cut short or damaged, and everything that follows.
     pub cut_off: u64,

@@ -125,7 +125,7 @@ impl Writer {
     }
 }
 
-/// Returns the path with `ending` after its whole name, so that different journals get different companion files.
+/// Returns the path with `ending` after its full name, so that different journals get different companion files.
 pub(crate) fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(ending);
