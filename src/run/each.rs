@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::growing::{install, thread_pool};
+use super::growing::thread_pool;
 use super::tracker::Tracker;
 use super::{Progress, RunError};
 use crate::model::{GiveUp, Model, RunContext, Worker};
@@ -23,24 +23,22 @@ pub fn run_each<T: Send>(
 ) -> Result<Vec<T>, RunError> {
     let before = Progress { total: count, ..Progress::default() };
     let tracker = Tracker::new(context, before, Instant::now(), on_progress);
-    let outputs = install(thread_pool(threads)?.as_ref(), || {
-        let numbers = (0..count).into_par_iter();
-        let outputs = numbers.map_init(
-            || model.worker(context),
-            |worker, number| {
-                if !tracker.goes_on() {
-                    return None;
-                }
-                let output = evaluate(&mut **worker, number);
-                match &output {
-                    Ok(_) => tracker.add(1, 0),
-                    Err(give_up) => tracker.end(RunError::GaveUp(give_up.clone())),
-                }
-                output.ok()
-            },
-        );
-        outputs.collect::<Option<Vec<T>>>()
-    });
+    let evaluate = |worker: &mut Box<dyn Worker + '_>, number| {
+        if !tracker.goes_on() {
+            return None;
+        }
+        let output = evaluate(&mut **worker, number);
+        match &output {
+            Ok(_) => tracker.add(1, 0),
+            Err(give_up) => tracker.end(RunError::GaveUp(give_up.clone())),
+        }
+        output.ok()
+    };
+    let all = || (0..count).into_par_iter().map_init(|| model.worker(context), evaluate).collect::<Option<Vec<T>>>();
+    let outputs = match thread_pool(threads)? {
+        Some(pool) => pool.install(all),
+        None => all(),
+    };
     tracker.finish()?;
     Ok(outputs.unwrap_or_default())
 }

@@ -92,7 +92,14 @@ impl<'a> GrowingRun<'a> {
     /// # Panics
     /// If the caller is a thread of another pool, and no thread can be started to wait for this one.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        install(self.pool.as_ref(), work)
+        let Some(pool) = &self.pool else { return work() };
+        if rayon::current_thread_index().is_none() {
+            return pool.install(work);
+        }
+        // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and
+        // so on: many simultaneous runs would use up its stack.
+        std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 
     /// Runs the base points missing for every replicate to have `points` of them, at most the design's. Existing ones
@@ -183,18 +190,6 @@ impl<'a> GrowingRun<'a> {
     pub fn elapsed(&self) -> std::time::Duration {
         self.start.elapsed()
     }
-}
-
-/// Runs `work` on the threads of `pool`, or on those of the caller without one.
-pub(super) fn install<R: Send>(pool: Option<&ThreadPool>, work: impl FnOnce() -> R + Send) -> R {
-    let Some(pool) = pool else { return work() };
-    if rayon::current_thread_index().is_none() {
-        return pool.install(work);
-    }
-    // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and so
-    // on: many simultaneous runs would use up its stack.
-    std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
-        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Creates a pool of `threads` threads (0: one per core); `None` if the caller already has this many, because starting

@@ -108,11 +108,11 @@ impl RowBlock {
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,
-    blocks: Mutex<RowBlocks>,
+    blocks: Mutex<Blocks>,
 }
 
 /// Blocks by replicate and first row. They do not overlap.
-type RowBlocks = BTreeMap<(u64, u64), RowBlock>;
+type Blocks = BTreeMap<(u64, u64), RowBlock>;
 
 impl Store {
     /// Creates an empty store for the rows of a design through `model`.
@@ -125,18 +125,13 @@ impl Store {
         self.outputs
     }
 
-    fn held(&self) -> MutexGuard<'_, RowBlocks> {
+    fn held(&self) -> MutexGuard<'_, Blocks> {
         // A thread that panicked has ended the run; what it has inserted does not matter then.
         self.blocks.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Returns the blocks that contain any of the rows `rows` of `replicate`, in order, each with those of its rows.
-    fn overlapping<'b>(
-        &self,
-        held: &'b RowBlocks,
-        replicate: u64,
-        rows: &Range<u64>,
-    ) -> Vec<(&'b RowBlock, Range<u64>)> {
+    fn overlapping<'b>(&self, held: &'b Blocks, replicate: u64, rows: &Range<u64>) -> Vec<(&'b RowBlock, Range<u64>)> {
         let mut overlapping = Vec::new();
         for (_, block) in held.range((replicate, 0)..(replicate, rows.end)).rev() {
             let end = block.first + block.rows(self.outputs);
@@ -171,7 +166,7 @@ impl Store {
     }
 
     /// Keeps the rows of a removed block except `failed`, unless counts over it, which cannot be divided, go with these.
-    fn keep_without(&self, held: &mut RowBlocks, block: &RowBlock, failed: impl IntoIterator<Item = u32>) {
+    fn keep_without(&self, held: &mut Blocks, block: &RowBlock, failed: impl IntoIterator<Item = u32>) {
         if !block.is_counted() {
             let parts = block.without(failed, self.outputs).into_iter();
             held.extend(parts.map(|part| ((part.replicate, part.first), part)));

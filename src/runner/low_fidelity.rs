@@ -35,10 +35,8 @@ const CHEAPER: f64 = 0.5;
 const ENOUGH: f64 = 1.0 / 16.0;
 
 /// The studies of a low-fidelity model.
-pub(super) struct LowFidelityStudy {
-    name: String,
-    /// Base samples of the independent design, if they are not to be chosen.
-    base_samples: Option<u64>,
+pub(super) struct LowFidelityStudy<'a> {
+    low: &'a LowFidelity,
     /// At the model's rows.
     shared: LowPart,
     /// At separate points.
@@ -52,9 +50,9 @@ struct LowPart {
     journal: RunJournal,
 }
 
-impl LowFidelityStudy {
+impl<'a> LowFidelityStudy<'a> {
     /// Prepares a low-fidelity model of the study that `runner` runs.
-    pub fn new(runner: &Runner<'_>, low: &LowFidelity, messages: &Messages) -> Result<Self, RunError> {
+    pub fn new(runner: &Runner<'_>, low: &'a LowFidelity, messages: &Messages) -> Result<Self, RunError> {
         let study = runner.study;
         let settings = study.design.settings();
         let base_samples = match low.base_samples {
@@ -66,8 +64,7 @@ impl LowFidelityStudy {
         let rows = Rows { plain_rows: 0, ..study.design.asked().clone() };
         let design = Design::new(settings, study.design.factors(), rows).map_err(RunError::Design)?;
         Ok(Self {
-            name: low.name.clone(),
-            base_samples: low.base_samples,
+            low,
             shared: runner.low_part(low, study.design.clone(), "shared", messages)?,
             independent: runner.low_part(low, design, "own", messages)?,
         })
@@ -122,7 +119,7 @@ pub(super) struct ErrorShare {
 
 /// The runs of a low-fidelity model.
 pub(super) struct LowFidelityRun<'a> {
-    study: &'a LowFidelityStudy,
+    low: &'a LowFidelity,
     /// At the model's rows.
     pub shared: TimedRun<'a>,
     /// At separate points.
@@ -164,13 +161,13 @@ impl<'a> LowFidelityRun<'a> {
     /// Creates the runs; none is evaluated.
     pub fn all(
         runner: &Runner<'a>,
-        studies: &'a [LowFidelityStudy],
+        studies: &'a [LowFidelityStudy<'_>],
         context: &'a RunContext<'a>,
     ) -> Result<Vec<Self>, RunError> {
         let mut runs = Vec::new();
         for (study, subject) in studies.iter().zip(1..) {
             runs.push(Self {
-                study,
+                low: study.low,
                 shared: TimedRun::new(runner, subject, &study.shared, context)?,
                 independent: TimedRun::new(runner, subject, &study.independent, context)?,
                 design: study.independent.study.design.clone(),
@@ -184,7 +181,7 @@ impl<'a> LowFidelityRun<'a> {
     pub fn begin(&mut self, seconds: f64) -> Result<(), RunError> {
         let design = &self.independent.part.study.design;
         let (mut points, replicates) = (design.points_per_replicate(), design.settings().replicates);
-        if self.study.base_samples.is_none() && points <= FIRST_POINTS {
+        if self.low.base_samples.is_none() && points <= FIRST_POINTS {
             let TimedRun { run, seconds: shared_seconds, .. } = &self.shared;
             let rows = run.points_per_replicate() * replicates * run.design().rows_per_point();
             let seconds_per_run = shared_seconds / rows.max(1) as f64;
@@ -220,7 +217,7 @@ impl<'a> LowFidelityRun<'a> {
         let points = run.points_per_replicate() * 2;
         let rows = points * longest.settings().replicates * longest.rows_per_point();
         let is_possible =
-            self.study.base_samples.is_none() && rows <= MAX_ROWS && points <= longest.points_per_replicate();
+            self.low.base_samples.is_none() && rows <= MAX_ROWS && points <= longest.points_per_replicate();
         let pays = errors.low_fidelity * (seconds + self.shared.seconds) > errors.model * low_seconds
             && errors.low_fidelity > ENOUGH * errors.model;
         (is_possible && pays).then_some(points)
@@ -245,7 +242,7 @@ impl<'a> LowFidelityRun<'a> {
     /// Returns its totals.
     pub fn totals(&self) -> LowFidelityTotals<'_> {
         LowFidelityTotals {
-            name: &self.study.name,
+            name: &self.low.name,
             shared: self.shared.run.totals(),
             design: &self.design,
             own: self.independent.run.totals(),
