@@ -58,7 +58,11 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
     let mut search = AccuracySearch {
         runner,
         context,
-        low_fidelity: if study.low_fidelity.is_empty() { study.subject.cheaper() } else { study.low_fidelity.clone() },
+        low_fidelity: if study.low_fidelities.is_empty() {
+            study.subject.cheaper()
+        } else {
+            study.low_fidelities.clone()
+        },
         split: Store::new(study.model().as_ref()),
         unsplit: Store::new(study.model().as_ref()),
         earlier_runs: 0,
@@ -162,7 +166,7 @@ impl AccuracySearch<'_> {
         let mut variant = study.clone();
         variant.design = Design::new(settings, study.design.factors(), rows).map_err(RunError::Design)?;
         variant.analysis.surrogate = surrogate;
-        variant.low_fidelity = if step == Step::Fitted { self.low_fidelity.clone() } else { Vec::new() };
+        variant.low_fidelities = if step == Step::Fitted { self.low_fidelity.clone() } else { Vec::new() };
         variant.target.max_runs = match step {
             Step::Trial => Some(variant.design.rows()),
             Step::Split | Step::Fitted => self.max_runs(),
@@ -195,7 +199,7 @@ impl AccuracySearch<'_> {
             runs: self.earlier_runs + result.provenance.model_runs,
             plain_runs: plain_runs(&study, &result, accuracy),
             reasons: self.reasons,
-            lines: lines(&study, self.runner.study.low_fidelity.len(), &result),
+            lines: lines(&study, self.runner.study.low_fidelities.len(), &result),
         });
         if let Some(stopping) = &mut result.stopping {
             // The limit of the study, not that of the step.

@@ -84,7 +84,7 @@ impl Runner<'_> {
         study.subject = low.subject.clone();
         study.design = design;
         study.target = Target::default();
-        study.low_fidelity = Vec::new();
+        study.low_fidelities = Vec::new();
         study.analysis.surrogate = SurrogateChoice::On;
         let (model, longest) = (study.model(), study.design.longest());
         // The runs of a program have a journal next to that of the study, if there is one.

@@ -300,7 +300,7 @@ impl<'a> Runner<'a> {
         let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
         let is_stored = journal.open.get().is_some() || model.is_slow() || self.remote.is_some();
         let store = self.store.or(is_stored.then_some(&journal.store));
-        let low_studies = study.low_fidelity.iter().map(|low| LowFidelityStudy::new(self, low, context.messages()));
+        let low_studies = study.low_fidelities.iter().map(|low| LowFidelityStudy::new(self, low, context.messages()));
         let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
         let on_progress = |progress: Progress| {
             evaluated.fetch_max(progress.done.saturating_sub(progress.recalled), Ordering::Relaxed);

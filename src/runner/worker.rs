@@ -28,10 +28,10 @@ pub struct WorkerStudy {
 impl WorkerStudy {
     /// Creates the models of `study`, which must be the same as that of the run in the other process.
     pub fn new(mut study: Study) -> Self {
-        if study.low_fidelity.is_empty() {
-            study.low_fidelity = study.subject.cheaper();
+        if study.low_fidelities.is_empty() {
+            study.low_fidelities = study.subject.cheaper();
         }
-        let low_fidelity = study.low_fidelity.iter().map(|low| low.subject.model(&study.space));
+        let low_fidelity = study.low_fidelities.iter().map(|low| low.subject.model(&study.space));
         let models = std::iter::once(study.model()).chain(low_fidelity).collect();
         Self { study, models }
     }

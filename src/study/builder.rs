@@ -34,7 +34,7 @@ pub struct StudyBuilder {
     /// What to estimate; by default [`AnalysisOptions::for_sampler`].
     pub analysis: Option<AnalysisOptions>,
     /// Low-fidelity models of the same outputs.
-    pub low_fidelity: Vec<LowFidelity>,
+    pub low_fidelities: Vec<LowFidelity>,
     /// Which factors depend on each other.
     pub dependences: Vec<Dependence>,
 }
@@ -53,7 +53,7 @@ impl StudyBuilder {
             replicates: None,
             seed,
             analysis: None,
-            low_fidelity: Vec::new(),
+            low_fidelities: Vec::new(),
             dependences: Vec::new(),
         }
     }
@@ -174,7 +174,7 @@ impl StudyBuilder {
     /// `base_samples` is the size of its own design; `None` to let the run choose.
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
-        self.low_fidelity.push(LowFidelity { name: name.to_owned(), subject, base_samples });
+        self.low_fidelities.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
 
@@ -205,7 +205,7 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(sampler));
         let analysis = rules::checked_options(analysis, sampler, &space, outputs)?;
         let space = space.with_dependences(self.dependences)?;
-        rules::check_dependent(&analysis, &space, &self.low_fidelity)?;
+        rules::check_dependent(&analysis, &space, &self.low_fidelities)?;
         length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
         let (base_samples, plain_rows) = length.sizes(&analysis, &space, sampler, replicates)?;
@@ -215,8 +215,8 @@ impl StudyBuilder {
             let expected = format!("{least} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
         })?;
-        for (number, low) in self.low_fidelity.iter().enumerate() {
-            if self.low_fidelity[..number].iter().any(|other| other.name == low.name) {
+        for (number, low) in self.low_fidelities.iter().enumerate() {
+            if self.low_fidelities[..number].iter().any(|other| other.name == low.name) {
                 return Err(BuildError::Repeated { what: "cheaper model", name: low.name.clone() });
             }
             if let Some(problem) = low.refused(&*model, &space) {
@@ -250,7 +250,7 @@ impl StudyBuilder {
             design,
             analysis,
             target: length.target,
-            low_fidelity: self.low_fidelity,
+            low_fidelities: self.low_fidelities,
             source: StudySource { notes, ..StudySource::default() },
         })
     }

@@ -44,7 +44,7 @@ pub struct Study {
     /// When a growing run ends.
     pub(crate) target: Target,
     /// Low-fidelity models of the same outputs.
-    pub(crate) low_fidelity: Vec<LowFidelity>,
+    pub(crate) low_fidelities: Vec<LowFidelity>,
     /// Where it is from.
     pub(crate) source: StudySource,
 }
@@ -158,7 +158,7 @@ impl Study {
 
     /// Returns the low-fidelity models of the same outputs, used where they help.
     pub fn low_fidelities(&self) -> &[LowFidelity] {
-        &self.low_fidelity
+        &self.low_fidelities
     }
 
     /// Returns the study of another subject, with the same outputs or others.
@@ -190,7 +190,7 @@ impl Study {
     /// Returns the study without low-fidelity models.
     #[must_use]
     pub fn without_low_fidelities(self) -> Self {
-        Self { low_fidelity: Vec::new(), ..self }
+        Self { low_fidelities: Vec::new(), ..self }
     }
 
     /// Returns the study as one that was read from a file.
@@ -262,7 +262,7 @@ impl Study {
         let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
         let model = self.model();
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        (is_automatic && design.plain_rows() == 0 && self.low_fidelity.is_empty())
+        (is_automatic && design.plain_rows() == 0 && self.low_fidelities.is_empty())
             .then(|| (values, model.concurrency().is_some()))
     }
 

@@ -161,12 +161,12 @@ fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildErr
 pub(super) fn check_dependent(
     options: &AnalysisOptions,
     space: &Space,
-    low_fidelity: &[LowFidelity],
+    low_fidelities: &[LowFidelity],
 ) -> Result<(), BuildError> {
     let refused = [
         ("noise", space.noise().is_some()),
         ("surrogate", options.surrogate == SurrogateChoice::On),
-        ("low", !low_fidelity.is_empty()),
+        ("low", !low_fidelities.is_empty()),
     ];
     match refused.into_iter().find(|(_, asked)| *asked) {
         Some((key, _)) if space.copula().is_some() => {

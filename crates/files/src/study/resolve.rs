@@ -44,7 +44,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault
     builder.title = file.title.as_ref().map(|title| title.get_ref().clone());
     builder.factors = space.factors().iter().cloned().map(Ok).collect();
     builder.dependences = super::dependence::dependences(context, &file, &space)?;
-    builder.low_fidelity = super::fidelity::lows(context, &file, &*subject, study)?;
+    builder.low_fidelities = super::fidelity::lows(context, &file, &*subject, study)?;
     let study =
         builder.checked().map_err(|error| context.fault(place(context, &file, &error), Problem::Build(error)))?;
     Ok((study, unused))
