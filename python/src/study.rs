@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use apportion::given::Column;
 use apportion::result::{RunFacts, StudyResult};
-use apportion::run::{Piece, Store, threads_in_force};
+use apportion::run::{RowBlock, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
@@ -18,7 +18,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 use crate::document::Document;
-use crate::errors::{failed, input, run as run_error};
+use crate::errors::{failed, input, run as run_error, study as study_error};
 use crate::function::{Caller, PythonModel, Stop};
 use crate::run::{Duty, Listeners, Told, attend};
 
@@ -43,8 +43,9 @@ struct Function {
 impl Study {
     /// The study of a text in the format of study files; `path` is for messages and names the study.
     #[staticmethod]
-    fn parse(text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        apportion_files::parse_study(text, &path, &overrides).map(|study| Self { study }).map_err(input)
+    fn parse(py: Python<'_>, text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        let study = apportion_files::parse_study(text, &path, &overrides);
+        study.map(|study| Self { study }).map_err(|error| study_error(py, &error))
     }
 
     /// The study of a file.
@@ -250,7 +251,7 @@ impl Study {
                 }
             }
             batch.settle();
-            store.insert(&Piece::from_batches(replicate, 0, std::slice::from_ref(&batch)));
+            store.insert(&RowBlock::from_batches(replicate, 0, std::slice::from_ref(&batch)));
         }
         py.detach(|| {
             let result = study.runner().store(&store).run().map_err(|error| run_error(&error))?;

@@ -6,7 +6,7 @@ use crate::correction::SurrogateEstimates;
 use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::model::Model;
-use crate::run::{Place, Totals};
+use crate::run::{RowPosition, Totals};
 use crate::space::Space;
 use crate::study::Study;
 use crate::surrogate::low_fidelity::IndependentOutputs;
@@ -23,7 +23,7 @@ pub(crate) struct FinishedRun<'a> {
     /// Totals of each replicate.
     pub replicates: &'a [Totals],
     /// The runs of low-fidelity models.
-    pub lows: &'a [LowTotals<'a>],
+    pub low_fidelity: &'a [LowFidelityTotals<'a>],
     /// The surrogate estimates of every output, if already known.
     pub surrogates: Option<&'a [Option<SurrogateEstimates>]>,
     /// Threads that ran the model.
@@ -34,7 +34,7 @@ pub(crate) struct FinishedRun<'a> {
 
 /// The runs of a low-fidelity model.
 #[derive(Clone, Copy)]
-pub(crate) struct LowTotals<'a> {
+pub(crate) struct LowFidelityTotals<'a> {
     /// Its name.
     pub name: &'a str,
     /// Totals of each replicate at the rows of the expensive model.
@@ -62,7 +62,7 @@ pub(crate) fn named_inputs(space: &Space, values: &[f64]) -> Map<String, Value> 
 }
 
 /// Returns the values of the factors at `place` of `design`, in their units.
-pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
+pub fn row_inputs(study: &Study, design: &Design, place: RowPosition) -> Vec<f64> {
     let mut u = vec![0.0; design.factors()];
     design.point(place.row(design), &mut u);
     study.space.values_at(&u)
@@ -70,7 +70,7 @@ pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
 
 /// Formats the inputs of a row of `study`, such as `length = 300 um, velocity = 0 nm/s`; `place` may be outside the
 /// study's own design, which a growing run exceeds.
-pub fn inputs_in_words(study: &Study, place: Place) -> String {
+pub fn inputs_in_words(study: &Study, place: RowPosition) -> String {
     let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
     let longer = points.filter(|points| *points > study.design.points_per_replicate());
     let longer = longer.and_then(|points| study.design.with_points(points).ok());

@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::MIN_OUTPUTS_TOGETHER;
-use super::finished_run::{FinishedRun, LowTotals};
+use super::finished_run::{FinishedRun, LowFidelityTotals};
 use super::measures::MeasuredRows;
 use super::output::{OutputRows, output_result};
 use super::scatter::rows_of_scatter;
@@ -16,14 +16,16 @@ use super::surrogates::Corrections;
 use crate::effect::Effect;
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, Model, RUNGS};
-use crate::result::{AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StoppingRecord, StudyResult};
+use crate::result::{
+    AggregateRecord, EffortRecord, LowFidelityRuns, Provenance, RungRecord, StoppingRecord, StudyResult,
+};
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::IntervalMethod;
 
 /// Returns the result of a run; `stopped` is why a growing one ended.
 pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyResult {
-    let FinishedRun { study, model, design, replicates, lows, .. } = *run;
+    let FinishedRun { study, model, design, replicates, low_fidelity, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
     let corrected = Corrections::new(run);
@@ -51,12 +53,12 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
         series,
         stopping: stopped.map(|stopped| stopping(study, stopped)),
         spending: None,
-        lows: lows.iter().map(low_runs).collect(),
+        low_fidelity: low_fidelity.iter().map(low_runs).collect(),
     }
 }
 
-fn low_runs(low: &LowTotals<'_>) -> LowRuns {
-    LowRuns {
+fn low_runs(low: &LowFidelityTotals<'_>) -> LowFidelityRuns {
+    LowFidelityRuns {
         name: low.name.to_owned(),
         shared_runs: low.shared.iter().map(|totals| totals.runs).sum(),
         own_base_samples: low.design.settings().base_samples,

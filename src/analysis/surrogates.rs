@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::finished_run::{FinishedRun, LowTotals, outputs_kept};
+use super::finished_run::{FinishedRun, LowFidelityTotals, outputs_kept};
 use super::output_indices::{IntervalOptions, output_indices};
 use super::rare_levels::rare_levels;
 use super::stages::points_of_stages;
@@ -45,10 +45,10 @@ pub(crate) fn surrogates(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
-    lows: &[LowTotals<'_>],
+    low_fidelity: &[LowFidelityTotals<'_>],
     longer: &[Option<SurrogateEstimates>],
 ) -> Vec<Option<SurrogateEstimates>> {
-    surrogates_and_trials(study, design, replicates, lows, longer).0
+    surrogates_and_trials(study, design, replicates, low_fidelity, longer).0
 }
 
 /// Returns the same, and the trial of each output that had one.
@@ -56,7 +56,7 @@ fn surrogates_and_trials(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
-    lows: &[LowTotals<'_>],
+    low_fidelity: &[LowFidelityTotals<'_>],
     longer: &[Option<SurrogateEstimates>],
 ) -> (Vec<Option<SurrogateEstimates>>, Vec<Option<SurrogateTrial>>) {
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
@@ -89,7 +89,7 @@ fn surrogates_and_trials(
     let alone = surrogates_together(design, &families, &layout, &whole, &longer);
     for (alone, number) in alone.into_iter().zip(numbers) {
         let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
-        for low in lows {
+        for low in low_fidelity {
             if let Some(Some(independent)) = low.outputs.get(number) {
                 let shared = first_points(low.shared, number, points);
                 let low = LowFidelityOutputs { name: low.name, shared: shared.iter().collect(), independent };
@@ -163,9 +163,10 @@ pub(super) struct Corrections {
 
 impl Corrections {
     pub fn new(run: &FinishedRun<'_>) -> Self {
-        let FinishedRun { study, design, replicates, lows, .. } = *run;
+        let FinishedRun { study, design, replicates, low_fidelity, .. } = *run;
         let known = run.surrogates.map(|known| (known.to_vec(), Vec::new()));
-        let (whole, trials) = known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, lows, &[]));
+        let (whole, trials) =
+            known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, low_fidelity, &[]));
         let mut stages = BTreeMap::new();
         if study.analysis.convergence && whole.iter().any(Option::is_some) {
             // All outputs have the same parts.
@@ -173,7 +174,7 @@ impl Corrections {
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
             for points in points_of_stages(&parts) {
                 if let Ok(design) = design.with_points(points) {
-                    stages.insert(points, surrogates(study, &design, replicates, lows, &whole));
+                    stages.insert(points, surrogates(study, &design, replicates, low_fidelity, &whole));
                 }
             }
         }

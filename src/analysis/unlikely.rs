@@ -3,7 +3,7 @@
 use crate::design::Design;
 use crate::model::Output;
 use crate::result::Warning;
-use crate::run::{Piece, Store};
+use crate::run::{RowBlock, Store};
 use crate::study::Study;
 use apportion_base::quantity::Unlikely;
 
@@ -11,12 +11,12 @@ use apportion_base::quantity::Unlikely;
 pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<Unlikely>> {
     let design = &study.design;
     let rows = design.points_per_replicate() * design.rows_per_point();
-    let pieces: Vec<Piece> =
-        (0..design.settings().replicates).filter_map(|replicate| store.piece(replicate, 0..rows)).collect();
+    let blocks: Vec<RowBlock> =
+        (0..design.settings().replicates).filter_map(|replicate| store.block(replicate, 0..rows)).collect();
     let model = study.model();
     let outputs = model.outputs();
     let of_output = |(number, output): (usize, &Output)| {
-        let values = pieces.iter().flat_map(|piece| piece.values.iter().skip(number).step_by(outputs.len()));
+        let values = blocks.iter().flat_map(|block| block.values.iter().skip(number).step_by(outputs.len()));
         Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>())
     };
     outputs.iter().enumerate().map(of_output).collect()

@@ -84,10 +84,10 @@ pub struct StudyResult {
     pub stopping: Option<StoppingRecord>,
     /// The choices of a run with a target accuracy, and their reasons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spending: Option<SpendingRecord>,
+    pub spending: Option<AccuracyRecord>,
     /// Low-fidelity models that were run in addition to the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub lows: Vec<LowRuns>,
+    pub low_fidelity: Vec<LowFidelityRuns>,
 }
 
 impl StudyResult {
@@ -302,7 +302,7 @@ impl SeriesRecord {
 /// The choices of a run with a target accuracy, and their reasons.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SpendingRecord {
+pub struct AccuracyRecord {
     /// The requested half width.
     pub accuracy: f64,
     /// Total runs of the model, including those of trials.
@@ -358,7 +358,7 @@ pub struct RungRecord {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
-pub struct LowRuns {
+pub struct LowFidelityRuns {
     /// Its name.
     pub name: String,
     /// Runs at the rows of the model.

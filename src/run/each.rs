@@ -1,4 +1,4 @@
-//! A caller's own work, distributed over the workers of a model.
+//! A caller's work, distributed over the workers of a model.
 
 use rayon::prelude::*;
 

@@ -1,11 +1,9 @@
 //! Errors that end a run without its totals.
 
-use std::path::PathBuf;
-
 use thiserror::Error;
 
 use super::journal::JournalError;
-use super::{MAX_STORED_BYTES, Place};
+use super::{MAX_STORED_BYTES, RowPosition};
 use crate::design::DesignError;
 use crate::model::{GiveUp, RowFailure};
 
@@ -24,15 +22,14 @@ pub enum RunError {
     #[error("a run failed, and the study stops at the first failure: {reason}")]
     RowFailed {
         /// The row.
-        row: Place,
+        row: RowPosition,
         /// The cause.
         reason: RowFailure,
     },
     /// The outputs of all runs were to be kept, and there are too many.
     #[error(
         "the outputs of {runs} runs must be in memory at once and take {bytes} bytes, more than the limit of \
-         {MAX_STORED_BYTES}: use fewer base samples or outputs, intervals = \"batches\", or start again without \
-         saved outputs (--restart)"
+         {MAX_STORED_BYTES}"
     )]
     TooManyOutputs {
         /// Model runs.
@@ -62,32 +59,26 @@ pub enum RunError {
         /// The cause.
         source: std::io::Error,
     },
-    /// The journal cannot be used.
+    /// The journal cannot be used, or does not fit the run.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The journal, or what was requested of it, does not fit the study.
-    #[error("{}: {reason}", .path.display())]
-    Refused {
-        /// The journal.
-        path: PathBuf,
-        /// What is wrong, and how to correct it.
-        reason: String,
-    },
     /// A feature that needs a journal was used without one.
-    #[error("{what} needs a journal: set one with Runner::journal")]
+    #[error("{what} needs a journal")]
     NoJournal {
         /// The feature.
         what: &'static str,
     },
-    /// A run that chooses its own size has no parts.
-    #[error("a study with an accuracy, a target, a budget or max_runs has no fixed size to divide into shards")]
+    /// A run that chooses its size has no shards.
+    #[error(
+        "a run with an accuracy, a maximum time or a maximum number of runs has no fixed size to divide into shards"
+    )]
     NoSize,
     /// Parts of a run are missing.
     #[error("{missing} of {total} runs are missing: {places}")]
     Incomplete {
         /// Runs that are missing.
         missing: u64,
-        /// Model runs of the whole design.
+        /// Model runs of the design.
         total: u64,
         /// Which runs they are, in words.
         places: String,

@@ -4,13 +4,10 @@
 //! that go into a store and a journal, and for a table of points.
 
 use std::collections::VecDeque;
-use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use serde::{Deserialize, Serialize};
-
 use super::remote::{DesignKey, Remote, Reply, Request};
-use super::rows::{MissingRows, RowValues};
+use super::rows::{MissingRows, RowRange, RowSource, RowValues};
 use super::tracker::Tracker;
 use super::{Progress, RunError, threads_in_force};
 use crate::model::{Batch, Model, RunContext, Worker};
@@ -32,39 +29,8 @@ const BATCHES_AHEAD: usize = 2;
 /// Stack size in bytes of a thread that serves one remote worker; there may be thousands of them.
 const STACK: usize = 1 << 19;
 
-/// Consecutive rows of one replicate, or of a table.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct RowRange {
-    pub replicate: u64,
-    pub rows: Range<u64>,
-}
-
-impl RowRange {
-    pub fn count(&self) -> u64 {
-        self.rows.end - self.rows.start
-    }
-}
-
-/// A source of rows to be run. A source leaves out rows whose outputs it already has.
-pub(crate) trait RowSource: Sync {
-    /// Returns at most `max_rows` rows for one of `workers` workers; `None` if there are none left.
-    fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange>;
-
-    /// Returns a column of SI values for each factor over the rows.
-    fn inputs<'s>(&'s self, values: &'s mut RowValues, range: &RowRange) -> Vec<&'s [f64]>;
-
-    /// Accepts the outputs of the rows (those finished before the worker gave up, if it did); returns the number of
-    /// rows accepted, and how many of them failed.
-    fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError>;
-
-    /// Returns the same rows in the form that remote workers can evaluate, if there is one.
-    fn remote(&self) -> Option<&MissingRows<'_>> {
-        None
-    }
-}
-
-/// The workers of a model for one run: threads of this process, each with a worker of its own that lives as long as the
-/// run. Their number is the [concurrency](Model::concurrency) of the model, or else the number of threads.
+/// The workers of a model for one run: threads of this process, each with a worker that lives as long as the run. Their
+/// number is the [concurrency](Model::concurrency) of the model, or else the number of threads.
 ///
 /// [Remote workers](super::RemoteWorkers) (MPI ranks, an executor of another language) join in
 /// [`execute`](Self::execute): each has a thread that takes batches for it and returns its outputs.
@@ -88,7 +54,7 @@ impl<'a> Executor<'a> {
         Self { model, context, workers, remote: None, idle: Mutex::default() }
     }
 
-    /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of the whole run.
+    /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of all rows of the run.
     ///
     /// # Errors
     /// [`RunError`] if the run is to stop; rows that the source has accepted by then are kept.
@@ -110,15 +76,15 @@ impl<'a> Executor<'a> {
         if workers == 1 && remote_count == 0 {
             execution.work();
         } else {
-            // Workers may wait for programs and other machines: they get threads of their own, not the pool's.
+            // Workers may wait for programs and other machines: they get separate threads, not the pool's.
             std::thread::scope(|scope| {
                 for _ in 0..local_count {
                     scope.spawn(move || execution.work());
                 }
                 for (worker, (remote, rows)) in (0..remote_count).zip(std::iter::repeat(remote).flatten()) {
                     let thread = std::thread::Builder::new().stack_size(STACK);
-                    let work = move || execution.work_remotely(remote, worker, rows);
-                    if let Err(source) = thread.spawn_scoped(scope, work) {
+                    let spawned = thread.spawn_scoped(scope, move || execution.work_remotely(remote, worker, rows));
+                    if let Err(source) = spawned {
                         tracker.end(RunError::Threads { threads: workers, source: source.into() });
                     }
                 }
@@ -186,10 +152,10 @@ impl Execution<'_, '_> {
                 sent.push_back(request.range);
             }
             let Some(range) = sent.pop_front() else { return Ok(()) };
-            let Reply { seconds, given_up, pieces } =
+            let Reply { seconds, given_up, blocks } =
                 remote.receive(worker, self.executor.context, &range, rows.store.outputs())?;
             // Receive all outstanding replies, so that the next run begins with a worker that has nothing to send.
-            goes_on &= self.count(rows.keep(&pieces));
+            goes_on &= self.count(rows.keep(&blocks));
             if let Some(give_up) = given_up {
                 self.tracker.end(RunError::GaveUp(give_up));
                 goes_on = false;
@@ -213,13 +179,7 @@ impl Execution<'_, '_> {
 
     /// Counts accepted rows; returns whether they were accepted.
     fn count(&self, accepted: Result<(u64, u64), RunError>) -> bool {
-        match accepted {
-            Ok((rows, failed)) => self.tracker.add(rows, failed),
-            Err(error) => {
-                self.tracker.end(error);
-                return false;
-            }
-        }
-        true
+        let counted = accepted.map(|(rows, failed)| self.tracker.add(rows, failed));
+        counted.map_err(|error| self.tracker.end(error)).is_ok()
     }
 }

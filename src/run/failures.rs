@@ -8,7 +8,7 @@ use apportion_base::text::masked;
 
 /// The place of a row in a design, independent of the number of base points. Places are ordered as rows are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct RowPosition {
     /// The replicate.
     pub replicate: u64,
     /// The base point in the replicate.
@@ -17,7 +17,7 @@ pub struct Place {
     pub run: u64,
 }
 
-impl Place {
+impl RowPosition {
     /// Returns the row's number in `design`.
     pub fn row(self, design: &Design) -> u64 {
         (self.replicate * design.points_per_replicate() + self.point) * design.rows_per_point() + self.run
@@ -30,7 +30,7 @@ pub struct Tally {
     /// Number of rows.
     pub count: u64,
     /// The first of them.
-    pub first: Place,
+    pub first: RowPosition,
 }
 
 impl Tally {
@@ -42,7 +42,7 @@ impl Tally {
 }
 
 /// Maximum number of reasons that are counted separately.
-pub const MAX_REASONS: usize = 100;
+const MAX_REASONS: usize = 100;
 
 /// The reason shown for rows whose reasons are not counted separately.
 const OTHERS: &str = "other reasons";

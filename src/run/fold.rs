@@ -9,10 +9,10 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::failures::Place;
+use super::failures::RowPosition;
 use super::scratch::{BlockPlace, Scratch};
 use super::tracker::Tracker;
-use super::{BLOCK, FailurePolicy, GrowingRun, Piece, RunError, SAMPLE, Totals};
+use super::{BLOCK, FailurePolicy, GrowingRun, RowBlock, RunError, SAMPLE, Totals, record};
 use crate::design::BasePoints;
 use crate::estimate::part_length;
 
@@ -26,7 +26,7 @@ pub(super) struct Fold<'f, 'a> {
 }
 
 /// A replicate, with the range of its base points that are folded.
-struct Stretch {
+struct ReplicateRange {
     replicate: u64,
     base: BasePoints,
     points: Range<u64>,
@@ -36,36 +36,39 @@ impl<'a> Fold<'_, 'a> {
     /// Returns the totals of the base points `points` of each replicate, in order; `None` if the run ended before them.
     pub fn run(&self, points: Range<u64>) -> Option<Vec<Totals>> {
         let blocks = points.start / BLOCK..points.end.div_ceil(BLOCK);
-        let fold = |replicate| {
-            let base = self.run.job.design.replicate(replicate);
-            self.fold(&Stretch { replicate, base, points: points.clone() }, blocks.clone())
-        };
-        (0..self.run.job.design.settings().replicates).into_par_iter().map(fold).collect()
+        let design = self.run.job.design;
+        (0..design.settings().replicates)
+            .into_par_iter()
+            .map(|replicate| {
+                let range = ReplicateRange { replicate, base: design.replicate(replicate), points: points.clone() };
+                self.fold(&range, blocks.clone())
+            })
+            .collect()
     }
 
-    fn fold(&self, stretch: &Stretch, blocks: Range<u64>) -> Option<Totals> {
+    fn fold(&self, range: &ReplicateRange, blocks: Range<u64>) -> Option<Totals> {
         let count = blocks.end - blocks.start;
         if count == 1 {
-            return self.block(stretch, blocks.start);
+            return self.block(range, blocks.start);
         }
         let middle = blocks.start + (1 << (count - 1).ilog2());
         let (left, right) =
-            rayon::join(|| self.fold(stretch, blocks.start..middle), || self.fold(stretch, middle..blocks.end));
+            rayon::join(|| self.fold(range, blocks.start..middle), || self.fold(range, middle..blocks.end));
         let mut totals = left?;
         totals.merge(&right?);
         Some(totals)
     }
 
-    fn block(&self, stretch: &Stretch, number: u64) -> Option<Totals> {
+    fn block(&self, range: &ReplicateRange, number: u64) -> Option<Totals> {
         if !self.tracker.goes_on() {
             return None;
         }
         let _guard = self.tracker.end_if_panicking();
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut scratch = idle.unwrap_or_else(|| Scratch::new(self.run.job));
-        let all = &stretch.points;
+        let all = &range.points;
         let points = (number * BLOCK).max(all.start)..((number + 1) * BLOCK).min(all.end);
-        let outcome = self.totals(&mut scratch, stretch, points);
+        let outcome = self.totals(&mut scratch, range, points);
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
         match outcome {
             Ok(totals) => {
@@ -79,21 +82,26 @@ impl<'a> Fold<'_, 'a> {
         }
     }
 
-    fn totals(&self, scratch: &mut Scratch<'a>, stretch: &Stretch, points: Range<u64>) -> Result<Totals, RunError> {
+    fn totals(
+        &self,
+        scratch: &mut Scratch<'a>,
+        range: &ReplicateRange,
+        points: Range<u64>,
+    ) -> Result<Totals, RunError> {
         let count = (points.end - points.start) as usize;
         let sampled = (SAMPLE / self.run.job.design.settings().replicates).max(1);
         let place = BlockPlace {
-            first: Place { replicate: stretch.replicate, point: points.start, run: 0 },
+            first: RowPosition { replicate: range.replicate, point: points.start, run: 0 },
             part_length: part_length(points.start / BLOCK, BLOCK, self.run.job.model.outputs().len()),
             sampled: sampled.saturating_sub(points.start) as usize,
             keeps_outputs: self.run.keeps_outputs,
         };
         if !self.run.store.is_some_and(|store| scratch.recall(store, place, count)) {
-            scratch.run_rows(self.run.job, (&stretch.base, points.start, count), self.run.context)?;
-            if let Some(sink) = self.run.sink.filter(|sink| sink.is_open()) {
+            scratch.run_rows(self.run.job, (&range.base, points.start, count), self.run.context)?;
+            if let Some(journal) = self.run.journal.filter(|journal| journal.get().is_some()) {
                 let first = points.start * self.run.job.design.rows_per_point();
-                let piece = Piece::from_batches(stretch.replicate, first, &scratch.batches);
-                sink.append(&piece).map_err(|source| RunError::NotKept { source })?;
+                let block = RowBlock::from_batches(range.replicate, first, &scratch.batches);
+                record(journal, &block)?;
             }
         }
         let totals = scratch.totals(self.run.job, place);

@@ -1,16 +1,17 @@
 //! Runs whose totals can be extended by more base points.
 
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::executor::Executor;
 use super::fold::Fold;
+use super::journal::Journal;
 use super::remote::Remote;
 use super::rows::MissingRows;
 use super::tracker::Tracker;
-use super::{FailurePolicy, Job, MAX_STORED_BYTES, OutputSink, Progress, RunError, Store, Totals, threads_in_force};
+use super::{FailurePolicy, Job, MAX_STORED_BYTES, Progress, RunError, Store, Totals, threads_in_force};
 use crate::design::Design;
 use crate::model::RunContext;
 use apportion_base::clock::Instant;
@@ -32,8 +33,8 @@ pub struct GrowingRun<'a> {
     pub keeps_outputs: bool,
     /// Keeps outputs: rows that it already has are not evaluated.
     pub store: Option<&'a Store>,
-    /// Receives every piece of evaluated outputs before its rows count as done.
-    pub sink: Option<&'a dyn OutputSink>,
+    /// Records every block of evaluated rows, once it is open.
+    pub(crate) journal: Option<&'a OnceLock<Journal>>,
     /// Base points of every replicate evaluated so far.
     points: u64,
     pub(super) totals: Vec<Totals>,
@@ -58,7 +59,7 @@ impl<'a> GrowingRun<'a> {
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
             store: None,
-            sink: None,
+            journal: None,
             points: 0,
             totals: Vec::new(),
         })
@@ -96,7 +97,7 @@ impl<'a> GrowingRun<'a> {
             return pool.install(work);
         }
         // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and
-        // so on: many runs side by side would use up its stack.
+        // so on: many simultaneous runs would use up its stack.
         std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
@@ -126,10 +127,13 @@ impl<'a> GrowingRun<'a> {
                 silent
             }
         };
-        let [done, failed] = [|totals: &Totals| totals.runs, |totals: &Totals| totals.failed_runs]
-            .map(|count| self.totals.iter().map(count).sum::<u64>());
-        let total = points * replicates * design.rows_per_point();
-        let before = Progress { done, recalled: 0, total, failed, elapsed: self.start.elapsed() };
+        let before = Progress {
+            done: self.totals.iter().map(|totals| totals.runs).sum(),
+            recalled: 0,
+            total: points * replicates * design.rows_per_point(),
+            failed: self.totals.iter().map(|totals| totals.failed_runs).sum(),
+            elapsed: self.start.elapsed(),
+        };
         let tracker = Tracker::new(self.context, before, self.start, on_progress);
         let fold = Fold { run: self, tracker: &tracker, idle: Mutex::default() };
         let new = self.install(|| fold.run(self.points..points));
@@ -138,7 +142,9 @@ impl<'a> GrowingRun<'a> {
         if self.totals.is_empty() {
             self.totals = new;
         } else {
-            self.totals.iter_mut().zip(&new).for_each(|(totals, new)| totals.merge(new));
+            for (totals, new) in self.totals.iter_mut().zip(&new) {
+                totals.merge(new);
+            }
         }
         self.points = points;
         Ok(())
@@ -154,7 +160,7 @@ impl<'a> GrowingRun<'a> {
         store: &Store,
         on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<(), RunError> {
-        let (missing, before) = MissingRows::new(self.job, rows, store, self.sink, self.failures);
+        let (missing, before) = MissingRows::new(self.job, rows, store, self.journal, self.failures);
         let before = Progress { elapsed: self.start.elapsed(), ..before };
         if before.done > 0 {
             on_progress(before);

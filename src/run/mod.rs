@@ -26,24 +26,28 @@ mod table;
 mod totals;
 mod tracker;
 
+use std::sync::OnceLock;
 use std::time::Duration;
 
 pub use each::run_each;
 pub use error::RunError;
-pub use failures::{Failures, MAX_REASONS, Place, Tally};
+pub use failures::RowPosition;
+pub(crate) use failures::Tally;
 pub use growing::GrowingRun;
+use journal::Journal;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
 pub(crate) use remote::{DesignKey, Remote, Reply, Request};
 pub(crate) use repeats::repeat_rows;
 pub use repeats::{Irreproducible, Repeats};
 pub use rows::RowValues;
-pub(crate) use rows::answered;
+pub(crate) use rows::{RowWorker, answered};
 pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
-pub use store::{Piece, Store};
-pub use table::{Halt, TableRun};
-pub use totals::{OutputTotals, SAMPLE, Totals};
+pub use store::{RowBlock, Store};
+pub use table::{EvaluationStopped, TableRun};
+pub(crate) use totals::SAMPLE;
+pub use totals::Totals;
 
 use crate::design::Design;
 use crate::model::{Model, RunContext};
@@ -74,7 +78,7 @@ pub struct Progress {
     pub done: u64,
     /// Those among them that were loaded when the run began.
     pub recalled: u64,
-    /// Model runs of the whole design.
+    /// Model runs of the design.
     pub total: u64,
     /// Model runs finished that have failed in at least one output.
     pub failed: u64,
@@ -85,7 +89,7 @@ pub struct Progress {
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
 pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
-/// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
+/// Runs all rows of the job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
 /// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
 ///
@@ -101,16 +105,9 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.totals)
 }
 
-/// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.
-pub trait OutputSink: Sync {
-    /// Returns whether it currently accepts outputs.
-    fn is_open(&self) -> bool;
-
-    /// Accepts a piece.
-    ///
-    /// # Errors
-    /// Why the piece cannot be saved, which ends the run.
-    fn append(&self, piece: &Piece) -> std::io::Result<()>;
+/// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
+pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {
+    journal.get().map_or(Ok(()), |journal| journal.append(block)).map_err(|source| RunError::NotKept { source })
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

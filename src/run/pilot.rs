@@ -1,21 +1,20 @@
 //! Pilot runs, which predict how long a design will take.
 
-use std::time::Instant;
-
 use super::repeats::compare;
-use super::{Job, Repeats, RowValues, RunError, failed_rows, threads_in_force};
-use crate::model::{Batch, RunContext};
+use super::rows::{RowRange, RowWorker};
+use super::{Job, Repeats, RunError, failed_rows, threads_in_force};
+use crate::model::RunContext;
 
-/// A few runs of a design, and the predicted time of the whole.
+/// A few runs of a design, and the predicted time of all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pilot {
     /// Number of pilot runs.
     pub runs: u64,
-    /// Predicted seconds for the whole design, startup included.
+    /// Predicted seconds for all rows of the design, startup included.
     pub seconds: f64,
     /// Seconds that a worker takes before its first run; 0 if it needs none.
     pub startup: f64,
-    /// Result of running the first row again on a new worker; `None` for models known to be deterministic.
+    /// Result of running the first row again on a new worker; `None` for deterministic models.
     pub repeats: Option<Repeats>,
     /// Pilot runs that failed in some output.
     pub failed: u64,
@@ -32,36 +31,30 @@ impl Pilot {
     pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
         const MIN_SECONDS: f64 = 0.3;
         const MAX_ROWS: u64 = 1 << 18;
-        let Job { design, model, .. } = job;
-        let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
-        let (mut failed, mut reason, mut first_row) = (0, None, Vec::new());
-        let mut timed = |rows: u64| {
-            let columns = values.values(job.space, design, 0, 0..rows);
-            let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-            batch.reset(rows as usize);
-            let start = Instant::now();
-            worker.run(&inputs, &mut batch);
-            let seconds = start.elapsed().as_secs_f64();
-            batch.settle();
-            // Every batch begins with the first row.
-            first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
-            // The last batch contains all rows, so its failures replace earlier ones.
-            failed = failed_rows(&batch);
-            reason = batch.failures().first().map(|(.., reason)| reason.to_string());
-            batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
+        let Job { design, space, model } = job;
+        let mut worker = RowWorker::new(model, context);
+        let mut seconds_of = |rows: u64| {
+            let seconds = worker.run(space, design, &RowRange { replicate: 0, rows: 0..rows });
+            worker.batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
         };
-        let first = timed(1)?;
+        let first = seconds_of(1)?;
         let rows = design.points_per_replicate() * design.rows_per_point();
-        let (mut runs, mut seconds) = (1, timed(1)?);
+        let (mut runs, mut seconds) = (1, seconds_of(1)?);
         let startup = (first - seconds).max(0.0);
         while seconds < MIN_SECONDS && runs < rows.min(MAX_ROWS) {
             runs = (runs * 4).min(rows).min(MAX_ROWS);
-            seconds = timed(runs)?;
+            seconds = seconds_of(runs)?;
         }
-        let repeats = || compare(job, context, &[(0, 0)], &[first_row]);
-        let repeats = model.may_be_random().then(repeats).transpose()?;
+        // Every batch begins with the first row, and the last one has all rows, with their failures.
+        let batch = worker.batch;
+        let mut repeats = None;
+        if model.may_be_random() {
+            let first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
+            repeats = Some(compare(job, context, &[(0, 0)], &[first_row])?);
+        }
         let workers = model.concurrency().unwrap_or_else(|| threads_in_force(0)).max(1);
-        let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
-        Ok(Self { runs, seconds: whole + startup, startup, repeats, failed, reason })
+        let all_rows = seconds * design.rows() as f64 / runs as f64 / workers as f64;
+        let reason = batch.failures().first().map(|(.., reason)| reason.to_string());
+        Ok(Self { runs, seconds: all_rows + startup, startup, repeats, failed: failed_rows(&batch), reason })
     }
 }

@@ -9,9 +9,9 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::executor::RowRange;
 use super::journal::{Reader, record, write_record};
-use super::{Piece, STOP_POLL_INTERVAL};
+use super::rows::RowRange;
+use super::{RowBlock, STOP_POLL_INTERVAL};
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{GiveUp, RowFailure, RunContext};
 
@@ -58,8 +58,8 @@ impl Remote<'_> {
     ) -> io::Result<Reply> {
         loop {
             if let Some(reply) = self.workers.receive(worker, STOP_POLL_INTERVAL)? {
-                let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply does not match the request");
-                return Reply::read(&reply, range, outputs).ok_or_else(nonsense);
+                return Reply::read(&reply, range, outputs)
+                    .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "its reply does not match the request"));
             }
             if context.is_stopped() {
                 self.workers.stop();
@@ -102,14 +102,14 @@ pub(crate) struct Reply {
     pub seconds: f64,
     pub given_up: Option<GiveUp>,
     /// Outputs, encoded as in the journal, after a line of JSON with the other fields.
-    pub pieces: Vec<Piece>,
+    pub blocks: Vec<RowBlock>,
 }
 
 impl Reply {
     pub fn write(&self) -> Vec<u8> {
         let given_up = self.given_up.as_ref().map(|why| (why.reason.to_string(), why.is_bad_input));
         let mut out = format!("{}\n", json!([self.seconds, given_up])).into_bytes();
-        self.pieces.iter().for_each(|piece| write_record(&mut out, piece));
+        self.blocks.iter().for_each(|block| write_record(&mut out, block));
         out
     }
 
@@ -119,17 +119,17 @@ impl Reply {
         let (seconds, given_up): (f64, Option<(String, bool)>) = serde_json::from_slice(head).ok()?;
         let given_up = given_up.map(|(reason, is_bad_input)| GiveUp { reason: RowFailure::new(&reason), is_bad_input });
         let mut from = Reader { bytes };
-        let mut pieces = Vec::new();
+        let mut blocks = Vec::new();
         while !from.bytes.is_empty() {
-            let piece = record(&mut from)?;
-            let end = piece.first.checked_add(piece.rows(outputs))?;
-            let is_asked =
-                piece.replicate == range.replicate && range.rows.start <= piece.first && end <= range.rows.end;
-            if !is_asked || !piece.is_whole(outputs) {
+            let block = record(&mut from)?;
+            let end = block.first.checked_add(block.rows(outputs))?;
+            let is_requested =
+                block.replicate == range.replicate && range.rows.start <= block.first && end <= range.rows.end;
+            if !is_requested || !block.is_complete(outputs) {
                 return None;
             }
-            pieces.push(piece);
+            blocks.push(block);
         }
-        Some(Self { seconds, given_up, pieces })
+        Some(Self { seconds, given_up, blocks })
     }
 }

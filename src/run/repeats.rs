@@ -1,5 +1,6 @@
 //! Rows that are run again, to check that the model is reproducible.
 
+use super::shard::quotient;
 use super::{Job, RowValues, RunError, Store};
 use crate::design::Design;
 use crate::model::{Batch, RunContext};
@@ -66,33 +67,35 @@ fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)> {
         return Vec::new();
     }
     let count = (evaluated / RUNS_PER_REPEAT).clamp(1, MAX_ROWS);
-    let of_replicate = design.points_per_replicate() * design.rows_per_point();
-    let all = of_replicate * design.settings().replicates;
-    let place = |number: u64| (u128::from(2 * number + 1) * u128::from(all) / u128::from(2 * count)) as u64;
-    (0..count).map(place).map(|place| (place / of_replicate, place % of_replicate)).collect()
+    let rows_per_replicate = design.points_per_replicate() * design.rows_per_point();
+    let rows = rows_per_replicate * design.settings().replicates;
+    let spread = (0..count).map(|number| quotient(2 * number + 1, rows, 2 * count));
+    spread.map(|row| (row / rows_per_replicate, row % rows_per_replicate)).collect()
 }
 
 /// Runs some rows of a run of `evaluated` rows again on a new worker, if its model may be random, and compares their
-/// outputs with those in `known`, or with those of another new worker if some are missing there. A model that no longer
-/// responds does not cost the result.
+/// outputs with those in `store`, or with those of another new worker if some are missing there. Returns `None` if the
+/// model no longer responds, which does not cost the result.
 pub(crate) fn repeat_rows(
     job: Job<'_>,
     context: &RunContext<'_>,
     evaluated: u64,
-    known: Option<&Store>,
+    store: Option<&Store>,
 ) -> Option<Repeats> {
     let rows = rows_to_repeat(job.design, evaluated);
     if !job.model.may_be_random() || rows.is_empty() {
         return None;
     }
-    let of_store = |store: &Store| -> Option<Vec<Vec<f64>>> {
-        rows.iter().map(|(replicate, row)| Some(store.piece(*replicate, *row..*row + 1)?.values)).collect()
-    };
-    let first = match known.and_then(of_store) {
+    let first = match store.and_then(|store| stored_outputs(store, &rows)) {
         Some(outputs) => outputs,
         None => outputs_of(job, context, &rows).ok()?,
     };
     compare(job, context, &rows, &first).ok()
+}
+
+/// Returns the outputs of rows in `store`; `None` if one is missing.
+fn stored_outputs(store: &Store, rows: &[(u64, u64)]) -> Option<Vec<Vec<f64>>> {
+    rows.iter().map(|(replicate, row)| Some(store.block(*replicate, *row..*row + 1)?.values)).collect()
 }
 
 /// Runs `rows` again on a new worker, and compares their outputs with those `before`.
@@ -107,23 +110,20 @@ pub(super) fn compare(
 ) -> Result<Repeats, RunError> {
     // In another order: the output of a row must not depend on its position.
     let backwards: Vec<(u64, u64)> = rows.iter().rev().copied().collect();
-    let again = || outputs_of(job, context, &backwards);
-    let second = again()?;
+    let second = outputs_of(job, context, &backwards)?;
     let mut differing = vec![0; job.model.outputs().len()];
     for (outputs, others) in before.iter().zip(second.iter().rev()) {
         for (count, (a, b)) in differing.iter_mut().zip(outputs.iter().zip(others)) {
             *count += u64::from(!is_same(*a, *b));
         }
     }
-    let cause = match differing.iter().any(|count| *count > 0) {
-        false => None,
-        true => {
-            let third = again()?;
-            let is_repeated = second.iter().flatten().zip(third.iter().flatten()).all(|(a, b)| is_same(*a, *b));
-            Some(if is_repeated { Irreproducible::Remembers } else { Irreproducible::Random })
-        }
-    };
-    Ok(Repeats { rows: rows.len() as u64, differing, cause })
+    let mut repeats = Repeats { rows: rows.len() as u64, differing, cause: None };
+    if repeats.differing.iter().any(|count| *count > 0) {
+        let third = outputs_of(job, context, &backwards)?;
+        let is_repeated = second.iter().flatten().zip(third.iter().flatten()).all(|(a, b)| is_same(*a, *b));
+        repeats.cause = Some(if is_repeated { Irreproducible::Remembers } else { Irreproducible::Random });
+    }
+    Ok(repeats)
 }
 
 /// Returns whether two outputs are equal within rounding; missing values count as equal.
@@ -137,7 +137,9 @@ fn outputs_of(job: Job<'_>, context: &RunContext<'_>, rows: &[(u64, u64)]) -> Re
     let mut values = RowValues::default();
     for (replicate, row) in rows {
         let of_row = values.values(job.space, job.design, *replicate, *row..*row + 1);
-        inputs.iter_mut().zip(of_row).for_each(|(column, value)| column.extend_from_slice(value));
+        for (column, value) in inputs.iter_mut().zip(of_row) {
+            column.extend_from_slice(value);
+        }
     }
     let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
     let mut batch = Batch::new(job.model);

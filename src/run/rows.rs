@@ -1,22 +1,56 @@
-//! The rows of a design that are missing in a store: their values, and where their outputs go.
+//! Sources of rows to evaluate; the rows of a design that are missing in a store, their values, and where their
+//! outputs go.
 
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
-use super::executor::{RowRange, RowSource};
-use super::store::{Piece, Store};
-use super::{FailurePolicy, Job, OutputSink, Place, Progress, RunError};
+use serde::{Deserialize, Serialize};
+
+use super::journal::Journal;
+use super::store::{RowBlock, Store};
+use super::{FailurePolicy, Job, Progress, RowPosition, RunError, record};
 use crate::design::{BasePoints, Design};
-use crate::model::Batch;
+use crate::model::{Batch, Model, RunContext, Worker};
 use crate::space::Space;
+use apportion_base::clock::Instant;
+
+/// Consecutive rows of one replicate, or of a table.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct RowRange {
+    pub replicate: u64,
+    pub rows: Range<u64>,
+}
+
+impl RowRange {
+    pub fn count(&self) -> u64 {
+        self.rows.end - self.rows.start
+    }
+}
+
+/// A source of rows to be run. A source leaves out rows whose outputs it already has.
+pub(crate) trait RowSource: Sync {
+    /// Returns at most `max_rows` rows for one of `workers` workers; `None` if there are none left.
+    fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange>;
+
+    /// Returns a column of SI values for each factor over the rows.
+    fn inputs<'s>(&'s self, values: &'s mut RowValues, range: &RowRange) -> Vec<&'s [f64]>;
+
+    /// Accepts the outputs of the rows (those finished before the worker gave up, if it did); returns the number of
+    /// rows accepted, and how many of them failed.
+    fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError>;
+
+    /// Returns the rows as those of a design, which remote workers can evaluate; `None` for a table.
+    fn remote(&self) -> Option<&MissingRows<'_>> {
+        None
+    }
+}
 
 /// The rows of some replicates that are missing in a store.
 pub(crate) struct MissingRows<'a> {
     pub job: Job<'a>,
     pub store: &'a Store,
-    /// Receives every piece before the store does.
-    sink: Option<&'a dyn OutputSink>,
+    journal: Option<&'a OnceLock<Journal>>,
     failures: FailurePolicy,
     waiting: Mutex<Waiting>,
 }
@@ -34,35 +68,35 @@ impl<'a> MissingRows<'a> {
         job: Job<'a>,
         rows: &[(u64, Range<u64>)],
         store: &'a Store,
-        sink: Option<&'a dyn OutputSink>,
+        journal: Option<&'a OnceLock<Journal>>,
         failures: FailurePolicy,
     ) -> (Self, Progress) {
-        let mut known = Progress::default();
+        let mut existing = Progress::default();
         let mut ranges = VecDeque::new();
         for (replicate, rows) in rows {
             let (present, failed) = store.count(*replicate, rows.clone());
-            known.total += rows.end - rows.start;
-            known.done += present;
-            known.failed += failed;
+            existing.total += rows.end - rows.start;
+            existing.done += present;
+            existing.failed += failed;
             let missing = store.missing(*replicate, rows.clone()).into_iter();
             ranges.extend(missing.map(|rows| RowRange { replicate: *replicate, rows }));
         }
-        known.recalled = known.done;
-        let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.done });
-        (Self { job, store, sink, failures, waiting }, known)
+        existing.recalled = existing.done;
+        let waiting = Mutex::new(Waiting { ranges, rows: existing.total - existing.done });
+        (Self { job, store, journal, failures, waiting }, existing)
     }
 
-    /// Saves pieces in the sink and the store; returns the number of their rows, and how many of them failed.
-    pub fn keep(&self, pieces: &[Piece]) -> Result<(u64, u64), RunError> {
+    /// Saves blocks of rows in the journal and the store; returns the number of their rows, and how many of them failed.
+    pub fn keep(&self, blocks: &[RowBlock]) -> Result<(u64, u64), RunError> {
         let (mut rows, mut failed) = (0, 0);
-        for piece in pieces {
-            self.sink.map_or(Ok(()), |sink| sink.append(piece)).map_err(|source| RunError::NotKept { source })?;
-            self.store.insert(piece);
-            rows += piece.rows(self.store.outputs());
-            failed += piece.failed_rows().len() as u64;
-            if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, piece.failures.first()) {
-                let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
-                let row = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };
+        for block in blocks {
+            self.journal.map_or(Ok(()), |journal| record(journal, block))?;
+            self.store.insert(block);
+            rows += block.rows(self.store.outputs());
+            failed += block.failed_rows().len() as u64;
+            if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, block.failures.first()) {
+                let (row, per_point) = (block.first + u64::from(*row), self.job.design.rows_per_point());
+                let row = RowPosition { replicate: block.replicate, point: row / per_point, run: row % per_point };
                 return Err(RunError::RowFailed { row, reason: reason.clone() });
             }
         }
@@ -99,17 +133,18 @@ impl RowSource for MissingRows<'_> {
     }
 }
 
-/// Returns the evaluated rows of a settled batch as pieces: one, unless the model has given up on some of them.
-pub(crate) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
-    let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
-    let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
-    let mut open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
-    open.dedup();
-    let mut pieces = piece.without(open, batch.outputs());
-    if let Some(first) = pieces.first_mut() {
-        (first.flags, first.counts) = (piece.flags, piece.counts);
+/// Returns the evaluated rows of a settled batch as blocks: one, unless the model has given up on some of them.
+pub(crate) fn answered(range: &RowRange, batch: &Batch) -> Vec<RowBlock> {
+    let block = RowBlock::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
+    let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![block] };
+    let mut unfinished: Vec<u32> =
+        block.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
+    unfinished.dedup();
+    let mut blocks = block.without(unfinished, batch.outputs());
+    if let Some(first) = blocks.first_mut() {
+        (first.flags, first.counts) = (block.flags, block.counts);
     }
-    pieces
+    blocks
 }
 
 /// The columns of some base points.
@@ -146,7 +181,7 @@ pub struct RowValues {
 }
 
 impl RowValues {
-    /// Returns the values of rows `rows` of `replicate`, counted within the replicate as in [`Piece`](super::Piece): a
+    /// Returns the values of rows `rows` of `replicate`, counted within the replicate as in [`RowBlock`](super::RowBlock): a
     /// column of SI values for each factor of `space`.
     pub fn values(&mut self, space: &Space, design: &Design, replicate: u64, rows: Range<u64>) -> &[Vec<f64>] {
         let per_point = design.rows_per_point();
@@ -160,14 +195,40 @@ impl RowValues {
         }
         for (factor, input) in self.inputs.iter_mut().enumerate() {
             input.clear();
-            let column = |run| &self.columns.values[design.column(run, factor)];
-            let columns: Vec<&Vec<f64>> = design.runs().iter().map(column).collect();
-            input.extend(rows.clone().map(|row| {
+            let columns: Vec<&Vec<f64>> =
+                design.runs().iter().map(|run| &self.columns.values[design.column(run, factor)]).collect();
+            for row in rows.clone() {
                 let (point, run) = (row / per_point - points.start, row % per_point);
-                columns[run as usize][point as usize]
-            }));
+                input.push(columns[run as usize][point as usize]);
+            }
         }
         &self.inputs
+    }
+}
+
+/// A worker of a model, and the outputs of the rows that it evaluated last.
+pub(crate) struct RowWorker<'a> {
+    worker: Box<dyn Worker + 'a>,
+    pub batch: Batch,
+    /// Of one design.
+    pub values: RowValues,
+}
+
+impl<'a> RowWorker<'a> {
+    pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
+        Self { worker: model.worker(context), batch: Batch::new(model), values: RowValues::default() }
+    }
+
+    /// Evaluates rows of `design`; returns the seconds that they took.
+    pub fn run(&mut self, space: &Space, design: &Design, range: &RowRange) -> f64 {
+        let columns = self.values.values(space, design, range.replicate, range.rows.clone());
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        self.batch.reset(range.count() as usize);
+        let start = Instant::now();
+        self.worker.run(&inputs, &mut self.batch);
+        let seconds = start.elapsed().as_secs_f64();
+        self.batch.settle();
+        seconds
     }
 }
 

@@ -1,6 +1,8 @@
 //! The outputs of a block of base points in one thread, and their totals.
 
-use super::failures::{Place, Tally};
+use std::ops::Range;
+
+use super::failures::{RowPosition, Tally};
 use super::rows::BaseColumns;
 use super::totals::{OutputTotals, Totals};
 use super::{Job, RunError, Store};
@@ -69,7 +71,9 @@ impl<'f> Scratch<'f> {
         };
         for batch in &self.batches {
             totals.counts.merge(batch.counts());
-            totals.flags.iter_mut().zip(batch.flags()).for_each(|(total, raised)| *total += raised);
+            for (total, raised) in totals.flags.iter_mut().zip(batch.flags()) {
+                *total += raised;
+            }
         }
         for (output, of_output) in totals.outputs.iter_mut().enumerate() {
             *of_output = self.totals_of(job.design, output, place);
@@ -83,7 +87,7 @@ impl<'f> Scratch<'f> {
             let failures = batch.failures().iter().filter(|(failed, ..)| *failed == output);
             let failures: Vec<(usize, RowFailure)> = failures.map(|(_, row, why)| (*row, why.clone())).collect();
             for (row, failure) in failures {
-                let first = Place { point: place.first.point + row as u64, run: run as u64, ..place.first };
+                let first = RowPosition { point: place.first.point + row as u64, run: run as u64, ..place.first };
                 totals.runs_failed += 1;
                 totals.failures.count(&failure, Tally { count: 1, first });
                 // A value that the model left in a failed row is ignored.
@@ -94,8 +98,7 @@ impl<'f> Scratch<'f> {
         let (a, b, length) = (runs[0], runs[1], place.part_length as usize);
         let parts = (0..a.len()).step_by(length).map(|first| {
             let part = first..(first + length).min(a.len());
-            let cut = |of: &[usize]| of.iter().map(|run| &runs[*run][part.clone()]).collect::<Vec<&[f64]>>();
-            let (ab, ba) = (cut(design.ab_runs()), cut(design.ba_runs()));
+            let (ab, ba) = (parts_of(&runs, design.ab_runs(), &part), parts_of(&runs, design.ba_runs(), &part));
             let (a, b, paired) = (&a[part.clone()], &b[part.clone()], design.paired());
             Moments::of_block(BlockOutputs { a, b, ab: &ab, ba: &ba, paired }, &mut self.workspace)
         });
@@ -110,11 +113,16 @@ impl<'f> Scratch<'f> {
     }
 }
 
-/// The place of a block in its design, and what is kept of it.
+/// Returns the base points `part` of those of `runs` that are `selected`.
+fn parts_of<'r>(runs: &[&'r [f64]], selected: &[usize], part: &Range<usize>) -> Vec<&'r [f64]> {
+    selected.iter().map(|run| &runs[*run][part.clone()]).collect()
+}
+
+/// The position of a block in its design, and what is kept of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BlockPlace {
     /// Row A of the first base point.
-    pub first: Place,
+    pub first: RowPosition,
     /// Base points in each part with separate moments, a power of two.
     pub part_length: u64,
     /// How many of its base points, from the first on, belong to the sample.

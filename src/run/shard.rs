@@ -23,31 +23,31 @@ const MAX_SHARDS: u64 = 1_000_000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     number: u64,
-    of: u64,
+    count: u64,
 }
 
 /// The error for a text that is not a valid part `k/n`.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("expected a shard such as 3/8, the third of eight (1/8 to 8/8; at most {MAX_SHARDS} shards), not {found:?}")]
+#[error("expected a shard such as 3/8, the third of eight (1/8 to 8/8; at most {MAX_SHARDS} shards), not {text:?}")]
 pub struct ShardError {
-    found: String,
+    text: String,
 }
 
 impl FromStr for Shard {
     type Err = ShardError;
 
     fn from_str(text: &str) -> Result<Self, ShardError> {
-        let parsed = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        let parsed = text.split_once('/').and_then(|(number, count)| Some((number.parse().ok()?, count.parse().ok()?)));
         match parsed {
-            Some((number, of)) if (1..=of).contains(&number) && of <= MAX_SHARDS => Ok(Self { number, of }),
-            _ => Err(ShardError { found: text.to_owned() }),
+            Some((number, count)) if (1..=count).contains(&number) && count <= MAX_SHARDS => Ok(Self { number, count }),
+            _ => Err(ShardError { text: text.to_owned() }),
         }
     }
 }
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
+        write!(f, "{}/{}", self.number, self.count)
     }
 }
 
@@ -59,14 +59,13 @@ impl Shard {
 
     /// Returns the number of parts.
     pub fn count(self) -> u64 {
-        self.of
+        self.count
     }
 
     /// Returns its rows of `design`, as (replicate, rows in it); none if there are more parts than base points.
     pub fn rows(self, design: &Design) -> Vec<(u64, Range<u64>)> {
         let (all, per_replicate) = (design.settings().base_samples, design.points_per_replicate());
-        let bound = |part: u64| (u128::from(part) * u128::from(all) / u128::from(self.of)) as u64;
-        let points = bound(self.number - 1)..bound(self.number);
+        let points = quotient(self.number - 1, all, self.count)..quotient(self.number, all, self.count);
         (points.start / per_replicate..points.end.div_ceil(per_replicate))
             .filter_map(|replicate| {
                 let first = replicate * per_replicate;
@@ -76,6 +75,11 @@ impl Shard {
             })
             .collect()
     }
+}
+
+/// Computes `a * b / divisor` without overflow.
+pub(super) fn quotient(a: u64, b: u64, divisor: u64) -> u64 {
+    (u128::from(a) * u128::from(b) / u128::from(divisor)) as u64
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::model::{Batch, Counts, Model, RowFailure};
 /// point * [`rows_per_point`](crate::design::Design::rows_per_point) + run), so that their numbers stay the same when the
 /// design grows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Piece {
+pub struct RowBlock {
     /// The replicate.
     pub replicate: u64,
     /// The first row.
@@ -25,39 +25,41 @@ pub struct Piece {
     pub counts: Counts,
 }
 
-impl Piece {
-    /// Creates a piece that starts at row `first` of `replicate` from settled batches: one for each run of a base
+impl RowBlock {
+    /// Creates a block that starts at row `first` of `replicate` from settled batches: one for each run of a base
     /// point, whose rows are the base points; or a single one of consecutive rows.
     pub fn from_batches(replicate: u64, first: u64, batches: &[Batch]) -> Self {
         let (points, outputs) = batches.first().map_or((0, 0), |batch| (batch.rows(), batch.outputs()));
-        let (runs, mut piece) = (batches.len(), Self { replicate, first, ..Self::default() });
-        piece.values.resize(points * runs * outputs, f64::NAN);
+        let (runs, mut block) = (batches.len(), Self { replicate, first, ..Self::default() });
+        block.values.resize(points * runs * outputs, f64::NAN);
         for (run, batch) in batches.iter().enumerate() {
             for output in 0..outputs {
                 for (point, value) in batch.column(output).iter().enumerate() {
-                    piece.values[(point * runs + run) * outputs + output] = *value;
+                    block.values[(point * runs + run) * outputs + output] = *value;
                 }
             }
             for (output, point, why) in batch.failures() {
-                piece.failures.push(((point * runs + run) as u32, *output as u32, why.clone()));
+                block.failures.push(((point * runs + run) as u32, *output as u32, why.clone()));
             }
-            piece.add_counts(batch.flags(), batch.counts());
+            block.add_counts(batch.flags(), batch.counts());
         }
-        piece.failures.sort_unstable();
-        for (row, output, _) in &piece.failures {
-            piece.values[*row as usize * outputs + *output as usize] = f64::NAN;
+        block.failures.sort_unstable();
+        for (row, output, _) in &block.failures {
+            block.values[*row as usize * outputs + *output as usize] = f64::NAN;
         }
-        piece
+        block
     }
 
     /// Adds flags and counts of more rows.
     fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
         self.flags.resize(self.flags.len().max(flags.len()), 0);
-        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+        for (mine, theirs) in self.flags.iter_mut().zip(flags) {
+            *mine += theirs;
+        }
         self.counts.merge(counts);
     }
 
-    /// Returns whether flags were raised or anything counted over its rows: such a piece cannot be divided.
+    /// Returns whether flags were raised or anything counted over its rows: such a block cannot be divided.
     pub(crate) fn is_counted(&self) -> bool {
         self.flags.iter().any(|raised| *raised > 0) || !self.counts.is_zero()
     }
@@ -67,11 +69,12 @@ impl Piece {
         (self.values.len() / outputs.max(1)) as u64
     }
 
-    /// Returns whether its values are those of whole rows, and its failures among them.
-    pub(crate) fn is_whole(&self, outputs: usize) -> bool {
+    /// Returns whether every row has all its values, and its failures are among them.
+    pub(crate) fn is_complete(&self, outputs: usize) -> bool {
         let rows = self.rows(outputs);
-        let fits = |(row, output, _): &(u32, u32, _)| u64::from(*row) < rows && (*output as usize) < outputs;
-        rows as usize * outputs == self.values.len() && self.failures.iter().all(fits)
+        let mut failures = self.failures.iter();
+        rows as usize * outputs == self.values.len()
+            && failures.all(|(row, output, _)| u64::from(*row) < rows && (*output as usize) < outputs)
     }
 
     /// Returns the rows that failed in an output, counted from the first one.
@@ -90,11 +93,10 @@ impl Piece {
         between.map(|rows| self.part(rows, outputs)).collect()
     }
 
-    /// Returns the rows `rows`, all of them its own, without flags and counts.
+    /// Returns the rows `rows`, all of them in the block, without flags and counts.
     fn part(&self, rows: Range<u64>, outputs: usize) -> Self {
         let (from, end) = ((rows.start - self.first) as usize, (rows.end - self.first) as usize);
-        let is_here = |(row, ..): &&(u32, u32, RowFailure)| (from..end).contains(&(*row as usize));
-        let failures = self.failures.iter().filter(is_here);
+        let failures = self.failures.iter().filter(|(row, ..)| (from..end).contains(&(*row as usize)));
         let failures = failures.map(|(row, output, why)| (row - from as u32, *output, why.clone())).collect();
         let values = self.values[from * outputs..end * outputs].to_vec();
         Self { replicate: self.replicate, first: rows.start, values, failures, ..Self::default() }
@@ -106,16 +108,16 @@ impl Piece {
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,
-    pieces: Mutex<Pieces>,
+    blocks: Mutex<Blocks>,
 }
 
-/// Pieces by replicate and first row. They do not overlap.
-type Pieces = BTreeMap<(u64, u64), Piece>;
+/// Blocks by replicate and first row. They do not overlap.
+type Blocks = BTreeMap<(u64, u64), RowBlock>;
 
 impl Store {
     /// Creates an empty store for the rows of a design through `model`.
     pub fn new(model: &dyn Model) -> Self {
-        Self { outputs: model.outputs().len(), pieces: Mutex::default() }
+        Self { outputs: model.outputs().len(), blocks: Mutex::default() }
     }
 
     /// Returns the number of outputs of every row.
@@ -123,46 +125,50 @@ impl Store {
         self.outputs
     }
 
-    fn held(&self) -> MutexGuard<'_, Pieces> {
+    fn held(&self) -> MutexGuard<'_, Blocks> {
         // A thread that panicked has ended the run; what it has inserted does not matter then.
-        self.pieces.lock().unwrap_or_else(PoisonError::into_inner)
+        self.blocks.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the pieces that contain any of the rows `rows` of `replicate`, in order, each with those of its rows.
-    fn overlapping<'p>(&self, held: &'p Pieces, replicate: u64, rows: &Range<u64>) -> Vec<(&'p Piece, Range<u64>)> {
-        let before = held.range((replicate, 0)..(replicate, rows.end)).rev();
-        let common = |(_, piece): (_, &'p Piece)| {
-            let end = piece.first + piece.rows(self.outputs);
-            (piece, piece.first.max(rows.start)..end.min(rows.end))
-        };
-        let mut found: Vec<_> = before.map(common).take_while(|(_, common)| !common.is_empty()).collect();
-        found.reverse();
-        found
+    /// Returns the blocks that contain any of the rows `rows` of `replicate`, in order, each with those of its rows.
+    fn overlapping<'b>(&self, held: &'b Blocks, replicate: u64, rows: &Range<u64>) -> Vec<(&'b RowBlock, Range<u64>)> {
+        let mut overlapping = Vec::new();
+        for (_, block) in held.range((replicate, 0)..(replicate, rows.end)).rev() {
+            let end = block.first + block.rows(self.outputs);
+            let common = block.first.max(rows.start)..end.min(rows.end);
+            if common.is_empty() {
+                break;
+            }
+            overlapping.push((block, common));
+        }
+        overlapping.reverse();
+        overlapping
     }
 
-    /// Saves the rows of `piece` in the store, replacing existing ones; returns the number of new rows. Rows that were
-    /// counted together with a replaced one become missing, unless `piece` has them too.
-    pub fn insert(&self, piece: &Piece) -> u64 {
-        let rows = piece.first..piece.first + piece.rows(self.outputs);
+    /// Saves the rows of `block` in the store, replacing existing ones; returns the number of new rows. Rows that were
+    /// counted together with a replaced one become missing, unless `block` has them too.
+    pub fn insert(&self, block: &RowBlock) -> u64 {
+        let rows = block.first..block.first + block.rows(self.outputs);
         let mut held = self.held();
-        let replaced = self.overlapping(&held, piece.replicate, &rows);
+        let replaced = self.overlapping(&held, block.replicate, &rows);
         let existing: u64 = replaced.iter().map(|(_, common)| common.end - common.start).sum();
-        let replaced: Vec<Piece> = replaced.into_iter().map(|(old, _)| old.clone()).collect();
+        let replaced: Vec<RowBlock> = replaced.into_iter().map(|(old, _)| old.clone()).collect();
         for old in replaced {
             held.remove(&(old.replicate, old.first));
-            let is_replaced = |row: &u32| rows.contains(&(old.first + u64::from(*row)));
-            self.keep_without(&mut held, &old, (0..old.rows(self.outputs) as u32).filter(is_replaced));
+            let old_rows = 0..old.rows(self.outputs) as u32;
+            let replaced = old_rows.filter(|row| rows.contains(&(old.first + u64::from(*row))));
+            self.keep_without(&mut held, &old, replaced);
         }
         if !rows.is_empty() {
-            held.insert((piece.replicate, piece.first), piece.clone());
+            held.insert((block.replicate, block.first), block.clone());
         }
         rows.end - rows.start - existing
     }
 
-    /// Keeps the rows of a removed piece except `failed`, unless counts over it, which cannot be divided, go with these.
-    fn keep_without(&self, held: &mut Pieces, piece: &Piece, failed: impl IntoIterator<Item = u32>) {
-        if !piece.is_counted() {
-            let parts = piece.without(failed, self.outputs).into_iter();
+    /// Keeps the rows of a removed block except `failed`, unless counts over it, which cannot be divided, go with these.
+    fn keep_without(&self, held: &mut Blocks, block: &RowBlock, failed: impl IntoIterator<Item = u32>) {
+        if !block.is_counted() {
+            let parts = block.without(failed, self.outputs).into_iter();
             held.extend(parts.map(|part| ((part.replicate, part.first), part)));
         }
     }
@@ -181,53 +187,54 @@ impl Store {
     /// Returns the number of existing rows of `replicate` among `rows`, and how many of them failed in an output.
     pub fn count(&self, replicate: u64, rows: Range<u64>) -> (u64, u64) {
         let held = self.held();
-        let counts = self.overlapping(&held, replicate, &rows).into_iter().map(|(piece, common)| {
-            let failed =
-                piece.failed_rows().into_iter().filter(|row| common.contains(&(piece.first + u64::from(*row))));
-            (common.end - common.start, failed.count() as u64)
-        });
-        counts.fold((0, 0), |(present, failed), (rows, more)| (present + rows, failed + more))
+        let (mut present, mut failed) = (0, 0);
+        for (block, common) in self.overlapping(&held, replicate, &rows) {
+            present += common.end - common.start;
+            let rows = block.failed_rows().into_iter().map(|row| block.first + u64::from(row));
+            failed += rows.filter(|row| common.contains(row)).count() as u64;
+        }
+        (present, failed)
     }
 
     /// Removes the rows that failed in an output, and those that were counted together with one of them, so that they
     /// are missing; returns how many failed.
     pub fn forget_failures(&self) -> u64 {
         let mut held = self.held();
-        let failing: Vec<Piece> =
-            held.extract_if(.., |_, piece| !piece.failures.is_empty()).map(|(_, piece)| piece).collect();
+        let failing: Vec<RowBlock> =
+            held.extract_if(.., |_, block| !block.failures.is_empty()).map(|(_, block)| block).collect();
         let mut count = 0;
-        for piece in failing {
-            let failed = piece.failed_rows();
+        for block in failing {
+            let failed = block.failed_rows();
             count += failed.len() as u64;
-            self.keep_without(&mut held, &piece, failed);
+            self.keep_without(&mut held, &block, failed);
         }
         count
     }
 
-    /// Returns the rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are
-    /// those of the pieces that begin among them.
-    pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
+    /// Returns the rows `rows` of `replicate` as one block; `None` if one of them is missing. Flags and counts are
+    /// those of the blocks that begin among them.
+    pub fn block(&self, replicate: u64, rows: Range<u64>) -> Option<RowBlock> {
         let held = self.held();
-        let mut whole = Piece { replicate, first: rows.start, ..Piece::default() };
+        let mut joined = RowBlock { replicate, first: rows.start, ..RowBlock::default() };
         let mut next = rows.start;
-        for (piece, common) in self.overlapping(&held, replicate, &rows) {
+        for (block, common) in self.overlapping(&held, replicate, &rows) {
             if common.start != next {
                 return None;
             }
             next = common.end;
-            let (begins, before) = (piece.first >= rows.start, (common.start - rows.start) as u32);
-            let part = piece.part(common, self.outputs);
-            whole.values.extend(part.values);
-            whole.failures.extend(part.failures.into_iter().map(|(row, output, why)| (before + row, output, why)));
+            let (begins, before) = (block.first >= rows.start, (common.start - rows.start) as u32);
+            let part = block.part(common, self.outputs);
+            joined.values.extend(part.values);
+            joined.failures.extend(part.failures.into_iter().map(|(row, output, why)| (before + row, output, why)));
             if begins {
-                whole.add_counts(&piece.flags, &piece.counts);
+                joined.add_counts(&block.flags, &block.counts);
             }
         }
-        (next == rows.end).then_some(whole)
+        (next == rows.end).then_some(joined)
     }
 
-    /// Returns all existing rows as pieces in order.
-    pub fn pieces(&self) -> Vec<Piece> {
+    /// Returns all existing rows as blocks in order.
+    pub fn blocks(&self) -> Vec<RowBlock> {
         self.held().values().cloned().collect()
     }
 
@@ -236,19 +243,19 @@ impl Store {
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
         let (runs, points) = (batches.len(), batches.first().map_or(0, Batch::rows));
         let first = point * runs as u64;
-        let Some(piece) = self.piece(replicate, first..first + (points * runs) as u64) else { return false };
+        let Some(block) = self.block(replicate, first..first + (points * runs) as u64) else { return false };
         for (run, batch) in batches.iter_mut().enumerate() {
             for output in 0..self.outputs {
                 for (point, value) in batch.column_mut(output).iter_mut().enumerate() {
-                    *value = piece.values[(point * runs + run) * self.outputs + output];
+                    *value = block.values[(point * runs + run) * self.outputs + output];
                 }
             }
         }
-        for (row, output, why) in piece.failures {
+        for (row, output, why) in block.failures {
             batches[row as usize % runs].fail(row as usize / runs, output as usize, why);
         }
         // Counts are summed over all runs of a block, so any batch may hold them.
-        batches[0].add_counts(&piece.flags, &piece.counts);
+        batches[0].add_counts(&block.flags, &block.counts);
         batches.iter_mut().for_each(Batch::settle);
         true
     }

@@ -4,15 +4,15 @@ use std::sync::{Mutex, PoisonError};
 
 use thiserror::Error;
 
-use super::executor::{Executor, RowRange, RowSource};
-use super::rows::RowValues;
+use super::executor::Executor;
+use super::rows::{RowRange, RowSource, RowValues};
 use super::{Progress, RunError};
 use crate::model::{Batch, GiveUp, Model, RunContext};
 use apportion_base::clock::Instant;
 
 /// Why rows were not all evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Halt {
+pub enum EvaluationStopped {
     /// The model cannot continue.
     #[error("the model cannot continue: {0}")]
     GaveUp(GiveUp),
@@ -43,8 +43,8 @@ impl<'a> TableRun<'a> {
     /// does not matter.
     ///
     /// # Errors
-    /// [`Halt`] if the model gives up or the run is to stop; the batch is then undefined.
-    pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), Halt> {
+    /// [`EvaluationStopped`] if the model gives up or the run is to stop; the batch is then undefined.
+    pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), EvaluationStopped> {
         let total = batch.rows() as u64;
         if total == 0 {
             return Ok(());
@@ -53,9 +53,9 @@ impl<'a> TableRun<'a> {
         let is_quick = self.0.model.concurrency().is_none();
         let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
         self.0.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
-            RunError::GaveUp(give_up) => Halt::GaveUp(give_up),
+            RunError::GaveUp(give_up) => EvaluationStopped::GaveUp(give_up),
             // A table has no failure policy and no sink, so nothing else can end it.
-            _ => Halt::Interrupted,
+            _ => EvaluationStopped::Interrupted,
         })?;
         let (_, batch) = table.sink.into_inner().unwrap_or_else(PoisonError::into_inner);
         batch.settle();

@@ -198,7 +198,7 @@ impl Worker for OfWorker<'_> {
     }
 }
 
-fn with_rows(rows: Rows, model: &Of) -> OutputTotals {
+fn with_rows(rows: Rows, model: &Of) -> totals::OutputTotals {
     let settings = DesignSettings { base_samples: 1024, replicates: 1, ..DesignSettings::default() };
     let design = Design::new(settings, 2, rows).unwrap();
     run(Job { design: &design, space: &space(), model }, 1, &|_| ()).unwrap().remove(0).outputs.remove(0)

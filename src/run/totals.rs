@@ -1,16 +1,16 @@
 //! The totals of a run: constant in size unless outputs are kept, merged in a fixed tree.
 
-use super::failures::{Failures, Place};
+use super::failures::{Failures, RowPosition};
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
 
 /// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
-pub const SAMPLE: u64 = 1 << 15;
+pub(crate) const SAMPLE: u64 = 1 << 15;
 
 /// Totals of one output.
 #[derive(Debug, Clone, Default)]
 pub struct OutputTotals {
-    /// The moments for the indices, each over every base point at which its own rows have a value.
+    /// The moments for the indices, each over every base point at which the rows that it needs have a value.
     pub moments: MomentParts,
     /// Moments of every value of the rows A and B.
     pub values: CentralMoments,
@@ -53,7 +53,7 @@ impl Totals {
     }
 
     /// Returns the first row that failed, and why.
-    pub(super) fn first_failure(&self) -> Option<(Place, RowFailure)> {
+    pub(super) fn first_failure(&self) -> Option<(RowPosition, RowFailure)> {
         let failures = self.outputs.iter().filter_map(|output| output.failures.first());
         let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
         Some((tally.first, reason))

@@ -19,7 +19,7 @@ pub(super) struct Tracker<'r> {
 }
 
 impl<'r> Tracker<'r> {
-    /// Creates a tracker that starts at `before`, whose total is that of the whole run.
+    /// Creates a tracker that starts at `before`, whose total is that of all rows of the run.
     pub fn new(
         context: &'r RunContext<'r>,
         before: Progress,

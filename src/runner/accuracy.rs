@@ -6,14 +6,14 @@
 //! do. Otherwise, a split design is tried first, by far the cheapest one where polynomials explain the model. Models
 //! inside the program continue without surrogates if these do not reach the accuracy within a million runs.
 
+use super::Runner;
 use super::low_fidelity::sibling_path;
-use super::{Resume, Runner};
 use crate::analysis::StopReason;
-use crate::design::{Design, DesignSettings, Rows};
+use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows};
 use crate::model::RunContext;
-use crate::result::{OutputResult, SpendingRecord, StudyResult};
+use crate::result::{AccuracyRecord, StudyResult};
 use crate::run::{RunError, Store};
-use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
+use crate::study::{LowFidelity, Study, SurrogateChoice};
 use crate::uncertainty::largest_half_width;
 
 /// Base points of each replicate in a trial without plain rows, the minimum to which surrogates are fitted.
@@ -32,151 +32,194 @@ const SMOOTH: f64 = 0.9;
 /// Base samples with which a run without surrogates begins.
 const FIRST_PLAIN: u64 = 1 << 10;
 
-/// Runs `runner`'s study until it reaches the accuracy of its target.
-pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<StudyResult, RunError> {
-    let mut attempt = Attempt { runner, context, runs: 0, reasons: Vec::new() };
-    let study = runner.study;
-    let DesignSettings { sampler, replicates, .. } = *study.design.settings();
-    if !study.analysis.takes_surrogates(sampler, replicates, &study.space) {
-        attempt.say(
-            "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points",
-        );
-        return Ok(attempt.plain()?.0);
-    }
-    let trial = attempt.variant(TRIAL_POINTS, 0, SurrogateChoice::Off)?;
-    let store = Store::new(trial.model().as_ref());
-    let lows = if study.lows.is_empty() { study.subject.cheaper() } else { study.lows.clone() };
-    let (first, reason) = if lows.is_empty() { attempt.split(&store)? } else { attempt.fitted(lows, &store)? };
-    let is_ours = |reason| matches!(reason, StopReason::MaxRuns { .. }) && study.target.max_runs != attempt.max_runs();
-    if !reason.is_some_and(is_ours) {
-        return Ok(first);
-    }
-    attempt.say(format!("corrected indices of {MAX_CORRECTED_RUNS} runs would not reach the accuracy: no surrogates"));
-    Ok(attempt.plain()?.0)
+/// One run of a search.
+#[derive(Clone, Copy, PartialEq)]
+enum Step {
+    /// A few runs of the split design, to see whether polynomials explain the model.
+    Trial,
+    /// With plain rows.
+    Split,
+    /// With surrogates and low-fidelity models, all runs at base points.
+    Fitted,
+    /// Without surrogates.
+    Plain,
 }
 
-/// A result, and why its run stopped.
-type Ended = (StudyResult, Option<StopReason>);
+/// The outcome of a step.
+struct RunOutcome {
+    study: Study,
+    result: StudyResult,
+    reason: Option<StopReason>,
+}
 
-struct Attempt<'a> {
+/// Runs `runner`'s study until it reaches the accuracy of its target.
+pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<StudyResult, RunError> {
+    let study = runner.study;
+    let mut search = AccuracySearch {
+        runner,
+        context,
+        low_fidelity: if study.low_fidelities.is_empty() {
+            study.subject.cheaper()
+        } else {
+            study.low_fidelities.clone()
+        },
+        split: Store::new(study.model().as_ref()),
+        unsplit: Store::new(study.model().as_ref()),
+        earlier_runs: 0,
+        reasons: Vec::new(),
+    };
+    let mut step = search.first_step()?;
+    loop {
+        let outcome = search.run(step)?;
+        match search.next_step(step, &outcome) {
+            Some(next) => step = next,
+            None => return Ok(search.recorded(outcome)),
+        }
+    }
+}
+
+struct AccuracySearch<'a> {
     runner: &'a Runner<'a>,
     context: &'a RunContext<'a>,
-    /// Runs of earlier trials.
-    runs: u64,
+    low_fidelity: Vec<LowFidelity>,
+    /// Outputs of a design with plain rows.
+    split: Store,
+    /// Outputs of a design without them.
+    unsplit: Store,
+    /// Model runs of earlier steps that the current one does not use.
+    earlier_runs: u64,
     reasons: Vec<String>,
 }
 
-impl Attempt<'_> {
-    fn say(&mut self, reason: impl Into<String>) {
-        self.reasons.push(reason.into());
-    }
-
-    /// Returns the study with another design.
-    fn variant(&self, points: u64, plain_rows: u32, surrogate: SurrogateChoice) -> Result<Study, RunError> {
+impl AccuracySearch<'_> {
+    fn first_step(&mut self) -> Result<Step, RunError> {
         let study = self.runner.study;
-        let settings = study.design.settings();
-        let base_samples = points.saturating_mul(settings.replicates);
-        let rows = Rows { plain_rows, ..study.design.requested().clone() };
-        let mut variant = study.clone();
-        variant.design = Design::new(DesignSettings { base_samples, ..settings.clone() }, study.design.factors(), rows)
-            .map_err(RunError::Design)?;
-        variant.analysis.surrogate = surrogate;
-        variant.lows = Vec::new();
-        Ok(variant)
+        let DesignSettings { sampler, replicates, .. } = *study.design.settings();
+        if !study.analysis.takes_surrogates(sampler, replicates, &study.space) {
+            let needs = "independent factors, and three or more replicates of Sobol' or random points";
+            self.reasons.push(format!("surrogates and cheaper models need {needs}"));
+            return Ok(Step::Plain);
+        }
+        if !self.low_fidelity.is_empty() {
+            return Ok(Step::Fitted);
+        }
+        let trial_runs = self.study(Step::Trial)?.design.rows();
+        Ok(if self.max_runs().is_some_and(|max_runs| trial_runs > max_runs) { Step::Fitted } else { Step::Trial })
     }
 
-    /// Runs without surrogates.
-    fn plain(&mut self) -> Result<Ended, RunError> {
-        let replicates = self.runner.study.design.settings().replicates;
-        let study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
-        self.run(&study, None, None)
+    /// Returns the step after one with this outcome; `None` if its result is final.
+    fn next_step(&mut self, step: Step, outcome: &RunOutcome) -> Option<Step> {
+        let runs = outcome.result.provenance.model_runs;
+        let next = match (step, &outcome.reason) {
+            (Step::Trial, Some(StopReason::TargetMet { .. })) => {
+                self.reasons.push(format!("a trial of {runs} runs was enough"));
+                return None;
+            }
+            (Step::Trial, _) => {
+                let explained = smallest_explained(&outcome.result);
+                let percent = 100.0 * explained.clamp(0.0, 1.0);
+                let trial = format!("in a trial of {runs} runs polynomials explained");
+                if explained >= SMOOTH {
+                    self.reasons.push(format!("{trial} {percent:.1} % of the variance: plain rows"));
+                    // Its runs are among those of the next step.
+                    return Some(Step::Split);
+                }
+                self.reasons.push(format!("{trial} {percent:.0} % of the variance: no plain rows"));
+                Step::Fitted
+            }
+            (Step::Split | Step::Fitted, Some(StopReason::MaxRuns { .. }))
+                if self.runner.study.target.max_runs != self.max_runs() =>
+            {
+                let runs = MAX_CORRECTED_RUNS;
+                self.reasons
+                    .push(format!("corrected indices of {runs} runs would not reach the accuracy: no surrogates"));
+                Step::Plain
+            }
+            _ => return None,
+        };
+        self.earlier_runs += runs;
+        Some(next)
     }
 
     /// Returns the maximum number of runs with surrogates.
     fn max_runs(&self) -> Option<u64> {
         let study = self.runner.study;
-        let own = study.model().concurrency().is_none().then_some(MAX_CORRECTED_RUNS);
-        study.target.max_runs.into_iter().chain(own).min()
+        let is_quick = study.model().concurrency().is_none();
+        study.target.max_runs.into_iter().chain(is_quick.then_some(MAX_CORRECTED_RUNS)).min()
     }
 
-    /// Runs with surrogates and `lows`, all runs at base points; those in `store` are reused.
-    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Ended, RunError> {
-        let mut study = self.variant(TRIAL_POINTS, 0, self.runner.study.analysis.surrogate)?;
-        study.lows = lows;
-        study.target = Target { max_runs: self.max_runs(), ..study.target };
-        self.run(&study, None, Some(store))
-    }
-
-    /// Runs with plain rows, if polynomials explain the model; `unsplit` holds outputs of rows without them.
-    fn split(&mut self, unsplit: &Store) -> Result<Ended, RunError> {
-        let of_point = self.variant(SPLIT_POINTS, 0, SurrogateChoice::On)?.design.rows_per_point();
-        let plain_rows = u32::try_from(of_point * PLAIN_ROWS).unwrap_or(u32::MAX).min(crate::design::MAX_PLAIN_ROWS);
-        let mut study = self.variant(SPLIT_POINTS, plain_rows, SurrogateChoice::On)?;
-        study.target.max_runs = self.max_runs();
-        let trial_runs = study.design.rows();
-        if study.target.max_runs.is_some_and(|most| trial_runs > most) {
-            return self.fitted(Vec::new(), unsplit);
-        }
-        let store = Store::new(study.model().as_ref());
-        let mut trial = study.clone();
-        trial.target = Target { max_runs: Some(trial_runs), ..study.target };
-        let (mut first, reason) = self.run(&trial, Some("split"), Some(&store))?;
-        if matches!(reason, Some(StopReason::TargetMet { .. })) {
-            self.say(format!("a trial of {trial_runs} runs was enough"));
-            first.spending.iter_mut().for_each(|spending| spending.reasons.clone_from(&self.reasons));
-            return Ok((first, reason));
-        }
-        let explained = explained(&first);
-        let percent = 100.0 * explained.clamp(0.0, 1.0);
-        if explained >= SMOOTH {
-            self.say(format!(
-                "in a trial of {trial_runs} runs polynomials explained {percent:.1} % of the variance: plain rows"
-            ));
-            self.runs -= trial_runs;
-            return self.run(&study, Some("split"), Some(&store));
-        }
-        self.say(format!(
-            "in a trial of {trial_runs} runs polynomials explained {percent:.0} % of the variance: no plain rows"
-        ));
-        self.fitted(Vec::new(), unsplit)
-    }
-
-    fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Ended, RunError> {
-        let Runner { journal, resume, .. } = self.runner;
-        let journal = match (journal, kind) {
-            (Some(path), Some(kind)) => Some(sibling_path(path, kind)),
-            (path, _) => path.clone(),
+    /// Returns the study that a step runs.
+    fn study(&self, step: Step) -> Result<Study, RunError> {
+        let study = self.runner.study;
+        let settings = study.design.settings();
+        let (points, plain_rows, surrogate) = match step {
+            Step::Trial | Step::Split => {
+                let rows = study.design.rows_per_point() - u64::from(study.design.plain_rows());
+                (SPLIT_POINTS, (rows * PLAIN_ROWS).min(MAX_PLAIN_ROWS.into()) as u32, SurrogateChoice::On)
+            }
+            Step::Fitted => (TRIAL_POINTS, 0, study.analysis.surrogate),
+            Step::Plain => ((FIRST_PLAIN / settings.replicates.max(1)).max(2), 0, SurrogateChoice::Off),
         };
-        let resume = if *resume == Resume::Require { Resume::IfThere } else { *resume };
-        let part = Runner { study, journal, resume, store: self.runner.store.or(store), ..self.runner.clone() };
-        let journal = part.open(None, self.context.messages())?;
-        let (mut result, reason) = part.analyse(self.context, journal)?;
-        self.runs += result.provenance.model_runs;
+        let base_samples = points.saturating_mul(settings.replicates);
+        let settings = DesignSettings { base_samples, ..settings.clone() };
+        let rows = Rows { plain_rows, ..study.design.requested().clone() };
+        let mut variant = study.clone();
+        variant.design = Design::new(settings, study.design.factors(), rows).map_err(RunError::Design)?;
+        variant.analysis.surrogate = surrogate;
+        variant.low_fidelities = if step == Step::Fitted { self.low_fidelity.clone() } else { Vec::new() };
+        variant.target.max_runs = match step {
+            Step::Trial => Some(variant.design.rows()),
+            Step::Split | Step::Fitted => self.max_runs(),
+            Step::Plain => study.target.max_runs,
+        };
+        Ok(variant)
+    }
+
+    fn run(&self, step: Step) -> Result<RunOutcome, RunError> {
+        let study = self.study(step)?;
+        let (kind, store) = match step {
+            Step::Trial | Step::Split => (Some("split"), Some(&self.split)),
+            Step::Fitted => (None, Some(&self.unsplit)),
+            Step::Plain => (None, None),
+        };
+        let path = self.runner.journal.as_ref();
+        let journal = path.map(|path| kind.map_or_else(|| path.clone(), |kind| sibling_path(path, kind)));
+        let resume = self.runner.resume.of_part();
+        let part = Runner { study: &study, journal, resume, store: self.runner.store.or(store), ..self.runner.clone() };
+        let (result, reason) = part.analyse(self.context, part.open(None, self.context.messages())?)?;
+        drop(part);
+        Ok(RunOutcome { study, result, reason })
+    }
+
+    /// Returns the result of the last step, with the record of the search.
+    fn recorded(self, RunOutcome { study, mut result, .. }: RunOutcome) -> StudyResult {
         let accuracy = study.target.accuracy.unwrap_or_default();
-        result.spending = Some(SpendingRecord {
+        result.spending = Some(AccuracyRecord {
             accuracy,
-            runs: self.runs,
-            plain_runs: plain_runs(study, &result, accuracy),
-            reasons: self.reasons.clone(),
-            lines: lines(study, self.runner.study.lows.len(), &result),
+            runs: self.earlier_runs + result.provenance.model_runs,
+            plain_runs: plain_runs(&study, &result, accuracy),
+            reasons: self.reasons,
+            lines: lines(&study, self.runner.study.low_fidelities.len(), &result),
         });
-        // Report the limit of the study, not that of this attempt.
-        result.stopping.iter_mut().for_each(|stopping| stopping.max_runs = self.runner.study.target.max_runs);
-        Ok((result, reason))
+        if let Some(stopping) = &mut result.stopping {
+            // The limit of the study, not that of the step.
+            stopping.max_runs = self.runner.study.target.max_runs;
+        }
+        result
     }
 }
 
-/// Returns the lines of a study with `lows` low-fidelity models that repeat the run of this attempt.
-fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
+/// Returns the lines of a study with a number of low-fidelity models that repeat the run of `study`, its variant.
+fn lines(study: &Study, low_fidelity: usize, result: &StudyResult) -> String {
     let provenance = &result.provenance;
     let mut lines = match provenance.plain_rows {
         0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
         _ => format!("[design]\nruns = {}\n", provenance.model_runs),
     };
-    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", attempt.analysis.surrogate.name()));
-    if let [low] = &result.lows[..] {
+    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", study.analysis.surrogate.name()));
+    if let [low] = &result.low_fidelity[..] {
         lines.push_str("[fidelity]\n");
-        lines.push_str(&match lows {
+        lines.push_str(&match low_fidelity {
             0 => format!("low = [\"{}\"]\n", low.name),
             1 => String::new(),
             _ => format!("# keep only `{}` in `low`\n", low.name),
@@ -187,21 +230,23 @@ fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
 }
 
 /// Returns the smallest share of the variance of an output that surrogates explain.
-fn explained(result: &StudyResult) -> f64 {
-    let of_output = |output: &OutputResult| output.surrogate.as_ref().map_or(0.0, |used| used.explained);
-    result.outputs.iter().map(of_output).fold(1.0, f64::min)
+fn smallest_explained(result: &StudyResult) -> f64 {
+    let surrogates = result.outputs.iter().map(|output| output.surrogate.as_ref());
+    surrogates.map(|surrogate| surrogate.map_or(0.0, |used| used.explained)).fold(1.0, f64::min)
 }
 
-/// Computes [`SpendingRecord::plain_runs`].
+/// Computes [`AccuracyRecord::plain_runs`].
 fn plain_runs(study: &Study, result: &StudyResult, accuracy: f64) -> Option<u64> {
-    let of_output = |output: &OutputResult| match &output.surrogate {
-        None => output.largest_half_width(),
-        Some(used) => {
-            largest_half_width(used.plain.iter().flat_map(|plain| [plain.first_order, plain.total]).flatten())
-        }
-    };
-    let mut widest = result.outputs.iter().filter(|output| output.indices.is_some()).map(of_output);
-    let widest = widest.try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))?;
+    let mut widest: f64 = 0.0;
+    for output in result.outputs.iter().filter(|output| output.indices.is_some()) {
+        let half_width = match &output.surrogate {
+            None => output.largest_half_width(),
+            Some(used) => {
+                largest_half_width(used.plain.iter().flat_map(|plain| [plain.first_order, plain.total]).flatten())
+            }
+        };
+        widest = widest.max(half_width?);
+    }
     let provenance = &result.provenance;
     let rows = study.design.rows_per_point() - u64::from(provenance.plain_rows);
     let runs = (rows * provenance.base_samples) as f64 * (widest / accuracy);

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 use super::model_files::{differing, digests};
 use super::{Resume, Runner};
 use crate::model::Messages;
-use crate::run::journal::{Contents, Journal, JournalError, differences, read_journal_file, with_ending};
-use crate::run::{OutputSink, Piece, Progress, RunError, Shard, Store};
+use crate::run::journal::{Contents, Journal, JournalProblem, differences, read_journal_file, with_ending};
+use crate::run::{Progress, RunError, Shard, Store};
 use crate::study::Study;
 
 /// Runs that are expected to take longer than this are worth a journal.
@@ -23,7 +23,7 @@ const MIN_ELAPSED: Duration = Duration::from_millis(200);
 pub(super) struct RunJournal {
     /// Outputs that were recorded when the journal was opened.
     pub store: Store,
-    open: OnceLock<Journal>,
+    pub open: OnceLock<Journal>,
     /// Path and header of the journal of a run that is not yet expected to be long.
     waiting: Mutex<Option<(PathBuf, Value)>>,
 }
@@ -34,9 +34,14 @@ impl RunJournal {
         Self { store: Store::new(study.model().as_ref()), open: OnceLock::new(), waiting: Mutex::new(None) }
     }
 
-    /// Creates a journal at `path`, of a study whose model has `files` (path: digest).
-    fn create(study: &Study, path: &Path, shard: Option<Shard>, files: &Value) -> Result<Self, RunError> {
-        Ok(Self { open: Journal::create(path, &header(study, shard, files))?.into(), ..Self::none(study) })
+    /// Creates a journal at `path`, of a study whose model has `files` (path: digest); if it `waits`, once the run is
+    /// expected to be long.
+    fn new(study: &Study, path: &Path, shard: Option<Shard>, files: &Value, waits: bool) -> Result<Self, RunError> {
+        let header = header(study, shard, files);
+        if waits {
+            return Ok(Self { waiting: Mutex::new(Some((path.to_owned(), header))), ..Self::none(study) });
+        }
+        Ok(Self { open: Journal::create(path, &header)?.into(), ..Self::none(study) })
     }
 
     /// Wraps a resumed journal with these contents.
@@ -73,16 +78,6 @@ impl RunJournal {
     }
 }
 
-impl OutputSink for RunJournal {
-    fn is_open(&self) -> bool {
-        self.open.get().is_some()
-    }
-
-    fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self.open.get().map_or(Ok(()), |journal| journal.append(piece))
-    }
-}
-
 /// Opens the journal of `study` at `path` for parts that were evaluated with `files`. An existing journal is used if it
 /// was evaluated with the same files, and otherwise moved aside.
 pub(super) fn open_for_parts(
@@ -92,14 +87,14 @@ pub(super) fn open_for_parts(
     messages: &Messages,
 ) -> Result<RunJournal, RunError> {
     let Some((journal, contents)) = resume_file(path, Resume::IfThere, messages)? else {
-        return RunJournal::create(study, path, None, files);
+        return RunJournal::new(study, path, None, files, false);
     };
     match another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)) {
         None => Ok(RunJournal::resumed(study, journal, &contents)),
-        Some(why) => {
+        Some(kind) => {
             drop(journal);
-            move_aside(path, &why, messages)?;
-            RunJournal::create(study, path, None, files)
+            move_aside(path, &kind.to_string(), messages)?;
+            RunJournal::new(study, path, None, files, false)
         }
     }
 }
@@ -113,33 +108,27 @@ pub(super) fn open(
 ) -> Result<RunJournal, RunError> {
     let Runner { study, resume, only_if_long, .. } = *runner;
     let files = digests(study);
-    let fresh = || {
-        // Even a few runs of a slow model may have cost much.
-        if shard.is_some() || !only_if_long || study.model().is_slow() {
-            return RunJournal::create(study, path, shard, &files);
-        }
-        let waiting = Mutex::new(Some((path.to_owned(), header(study, None, &files))));
-        Ok(RunJournal { waiting, ..RunJournal::none(study) })
+    // Even a few runs of a slow model may have cost much.
+    let waits = only_if_long && shard.is_none() && !study.model().is_slow();
+    let Some((journal, contents)) = resume_file(path, resume, messages)? else {
+        return RunJournal::new(study, path, shard, &files, waits);
     };
-    let Some((journal, contents)) = resume_file(path, resume, messages)? else { return fresh() };
     let other = another_study(study, &contents.header);
-    if let (true, Some(why)) = (resume.is_required(), &other) {
-        return Err(refused(path, why.clone()));
-    }
     let changed = another_model(&contents.header, &files);
-    if let Some(changed) = changed.as_ref().filter(|_| resume != Resume::Restart && !contents.pieces.is_empty()) {
-        let advice = "its runs are from the earlier version. Undo the change, or start again with --restart";
-        return Err(refused(path, format!("{changed}: {advice}")));
-    }
-    let why = if resume == Resume::Restart { Some("--restart".to_owned()) } else { other.or(changed) };
-    if let Some(why) = why {
+    let reason = match (other, changed) {
+        _ if resume == Resume::Restart => Some("restarted".to_owned()),
+        (Some(other), _) if resume.is_required() => return Err(other.at(path).into()),
+        (_, Some(changed)) if !contents.blocks.is_empty() => return Err(changed.at(path).into()),
+        (other, changed) => other.or(changed).map(|kind| kind.to_string()),
+    };
+    if let Some(reason) = reason {
         drop(journal);
-        if contents.pieces.is_empty() {
+        if contents.blocks.is_empty() {
             std::fs::remove_file(path).map_err(|error| in_the_way(path, &error))?;
         } else {
-            move_aside(path, &why, messages)?;
+            move_aside(path, &reason, messages)?;
         }
-        return fresh();
+        return RunJournal::new(study, path, shard, &files, waits);
     }
     if contents.cut_off > 0 {
         let what = "after its last complete record; their runs are evaluated again";
@@ -165,19 +154,19 @@ pub(super) fn open(
 fn resume_file(path: &Path, resume: Resume, messages: &Messages) -> Result<Option<(Journal, Contents)>, RunError> {
     if !path.exists() {
         if resume.is_required() {
-            let why = "no journal found: there is nothing to resume (quick runs keep none)";
-            return Err(refused(path, why.to_owned()));
+            return Err(JournalProblem::Missing.at(path).into());
         }
         return Ok(None);
     }
     match Journal::resume(path) {
-        Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }))
-            if !resume.is_required() =>
+        Err(error)
+            if !resume.is_required()
+                && matches!(error.problem, JournalProblem::Invalid(_) | JournalProblem::OtherFormat(_)) =>
         {
             move_aside(path, &error.to_string(), messages)?;
             Ok(None)
         }
-        found => Ok(Some(found?)),
+        resumed => Ok(Some(resumed?)),
     }
 }
 
@@ -190,16 +179,16 @@ fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
     })
 }
 
-/// Returns why a journal with this header does not belong to `study`, if it does not.
-fn another_study(study: &Study, header: &Value) -> Option<String> {
-    let found = differences(&header["identity"], &study.identity());
-    let name = header["study"].as_str().unwrap_or_default();
-    (!found.is_empty()).then(|| format!("the journal is of another study ({name}): {}", found.join("; ")))
+/// Returns how the study of a journal with this header differs from `study`, if it does.
+fn another_study(study: &Study, header: &Value) -> Option<JournalProblem> {
+    let differences = differences(&header["identity"], &study.identity()).join("; ");
+    let name = header["study"].as_str().unwrap_or_default().to_owned();
+    (!differences.is_empty()).then_some(JournalProblem::OtherStudy(name, differences))
 }
 
-/// Returns why a journal with this header is of another version of the model than `files` (path: digest), if it is.
-fn another_model(header: &Value, files: &Value) -> Option<String> {
-    differing(&header["files"], files).map(|names| format!("{names} changed since the journal was written"))
+/// Returns how the model of a journal with this header differs from one with `files` (path: digest), if it does.
+fn another_model(header: &Value, files: &Value) -> Option<JournalProblem> {
+    differing(&header["files"], files).map(JournalProblem::OtherModel)
 }
 
 /// Renames a journal to an unused name.
@@ -214,22 +203,14 @@ fn move_aside(path: &Path, why: &str, messages: &Messages) -> Result<(), RunErro
 
 fn in_the_way(path: &Path, source: &std::io::Error) -> RunError {
     let source = std::io::Error::new(source.kind(), format!("cannot move it aside: {source}"));
-    JournalError::Unwritable { path: path.to_owned(), source }.into()
-}
-
-pub(super) fn refused(path: &Path, reason: String) -> RunError {
-    RunError::Refused { path: path.to_owned(), reason }
+    JournalProblem::Unwritable(source).at(path).into()
 }
 
 /// Reads the journal at `path`, which must belong to `study`, without locking it.
 pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
-    let contents = read_journal_file(path).map_err(|error| match error {
-        // The path was named by the user, or found a moment ago.
-        JournalError::Unreadable { source, .. } => refused(path, format!("cannot read the journal: {source}")),
-        error => error.into(),
-    })?;
+    let contents = read_journal_file(path)?;
     match another_study(study, &contents.header) {
-        Some(why) => Err(refused(path, why)),
+        Some(problem) => Err(problem.at(path).into()),
         None => Ok(contents),
     }
 }
@@ -237,8 +218,8 @@ pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
 /// Counts the runs of `study` recorded in the journal at `path`.
 pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
     let contents = read(study, path)?;
-    if let Some(why) = another_model(&contents.header, &digests(study)) {
-        return Err(refused(path, why));
+    if let Some(problem) = another_model(&contents.header, &digests(study)) {
+        return Err(problem.at(path).into());
     }
     Ok(rows_on_record(study, &recorded(study, &contents)))
 }
@@ -247,9 +228,9 @@ pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError>
 pub(super) fn recorded(study: &Study, contents: &Contents) -> Store {
     let store = Store::new(study.model().as_ref());
     let outputs = store.outputs();
-    for piece in &contents.pieces {
-        if piece.replicate < study.design.settings().replicates && piece.is_whole(outputs) {
-            store.insert(piece);
+    for block in &contents.blocks {
+        if block.replicate < study.design.settings().replicates && block.is_complete(outputs) {
+            store.insert(block);
         }
     }
     store

@@ -12,17 +12,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use growth::Grown;
+use growth::Growth;
 use journal::RunJournal;
-use low_fidelity::{LowRun, LowStudy};
+use low_fidelity::{LowFidelityRun, LowFidelityStudy};
 pub use worker::{Requests, WorkerStudy};
 
-use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
+use crate::analysis::{FinishedRun, LowFidelityTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
 use crate::result::{StudyResult, Warning};
 use crate::run::{
-    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows,
-    threads_in_force,
+    GrowingRun, Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows, threads_in_force,
 };
 use crate::study::Study;
 
@@ -87,6 +86,11 @@ pub enum Resume {
 impl Resume {
     fn is_required(self) -> bool {
         matches!(self, Self::Require | Self::RetryFailed)
+    }
+
+    /// Returns what to do with the journal of a part of the run, which may be missing.
+    fn of_part(self) -> Self {
+        if self == Self::Require { Self::IfThere } else { self }
     }
 }
 
@@ -194,7 +198,7 @@ impl<'a> Runner<'a> {
     ///
     /// # Errors
     /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that
-    /// chooses its own size.
+    /// chooses its size.
     pub fn run_shard(self, shard: Shard) -> Result<u64, RunError> {
         if self.study.target.grows() {
             return Err(RunError::NoSize);
@@ -216,7 +220,7 @@ impl<'a> Runner<'a> {
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
     /// merged runs are always recorded: they may have cost much elsewhere.
     /// # Errors
-    /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
+    /// As for [`run`](Self::run), and [`RunError::Journal`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
     pub fn merge(self, journals: &[PathBuf]) -> Result<StudyResult, RunError> {
         let context = self.context();
@@ -270,7 +274,7 @@ impl<'a> Runner<'a> {
         let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
         run.failures = self.study.analysis.failures;
         run.keeps_outputs = self.study.needs_outputs();
-        run.sink = Some(journal);
+        run.journal = Some(&journal.open);
         Ok(run)
     }
 
@@ -289,38 +293,42 @@ impl<'a> Runner<'a> {
         let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
         if let Some(store) = self.store {
-            journal.store.pieces().iter().for_each(|piece| _ = store.insert(piece));
+            for block in journal.store.blocks() {
+                store.insert(&block);
+            }
         }
         let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
+        let is_stored = journal.open.get().is_some() || model.is_slow() || self.remote.is_some();
+        let store = self.store.or(is_stored.then_some(&journal.store));
+        let low_studies = study.low_fidelities.iter().map(|low| LowFidelityStudy::new(self, low, context.messages()));
+        let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
         let on_progress = |progress: Progress| {
             evaluated.fetch_max(progress.done.saturating_sub(progress.recalled), Ordering::Relaxed);
             journal.watch(progress, outputs, context.messages());
             (self.on_progress)(progress);
         };
         let mut run = self.set_up(job, context, &journal)?;
-        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow() || self.remote.is_some());
-        let store = self.store.or(own);
         run.store = store;
-        let low_studies = study.lows.iter().map(|low| LowStudy::new(self, low, context));
-        let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
-        let mut lows = LowRun::all(self, &low_studies, context)?;
-        let grown = self.run_all(&mut run, &mut lows, &on_progress);
+        let low_fidelity = LowFidelityRun::all(self, &low_studies, context)?;
+        let mut growth = Growth { study, run, low_fidelity, on_progress: &on_progress };
+        let grown = growth.run_all();
         // An error of the run takes precedence over one of its journal.
         let (stopped, surrogates) = grown.and_then(|grown| journal.sync().map(|()| grown))?.unzip();
+        let Growth { run, low_fidelity, .. } = growth;
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
-        let low_totals: Vec<LowTotals<'_>> = lows.iter().map(LowRun::totals).collect();
+        let low_fidelity: Vec<LowFidelityTotals<'_>> = low_fidelity.iter().map(LowFidelityRun::totals).collect();
         let finished = FinishedRun {
             study,
             model: model.as_ref(),
             design: &design,
             replicates: run.totals(),
-            lows: &low_totals,
+            low_fidelity: &low_fidelity,
             surrogates: surrogates.as_deref(),
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
         let mut result = run.install(|| result(&finished, stopped.as_ref()));
-        let evaluated = evaluated.into_inner();
+        let evaluated = evaluated.load(Ordering::Relaxed);
         if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
             for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
                 let text = repeats.warning(*differing, study.space.noise().is_some());
@@ -328,20 +336,5 @@ impl<'a> Runner<'a> {
             }
         }
         Ok((result, stopped.map(|stopped| stopped.reason)))
-    }
-
-    /// Runs the study and its low-fidelity models; returns why it stopped and the surrogate estimates, if it grows.
-    fn run_all(
-        &self,
-        run: &mut GrowingRun<'_>,
-        lows: &mut Vec<LowRun<'_>>,
-        on_progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Option<Grown>, RunError> {
-        let target = &self.study.target;
-        run.grow_to(self.study.design.points_per_replicate(), on_progress)?;
-        if target.accuracy.is_none() {
-            self.begin_lows(run, lows)?;
-        }
-        if target.grows() { self.grow(run, lows, on_progress).map(Some) } else { Ok(None) }
     }
 }

@@ -3,17 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value};
 
 use crate::study::Study;
 use apportion_base::digest::Sha256;
 
 /// Returns the digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
 pub(super) fn digests(study: &Study) -> Value {
-    let digest = |path: &PathBuf| Some((path.display().to_string(), json!(sha256(path).ok()?)));
-    Value::Object(study.subject.files().iter().filter_map(digest).collect())
+    let mut digests = Map::new();
+    for path in study.subject.files() {
+        if let Ok(digest) = sha256(&path) {
+            digests.insert(path.display().to_string(), digest.into());
+        }
+    }
+    Value::Object(digests)
 }
 
 /// Computes the digest in pieces: data may be larger than the memory.
@@ -43,13 +48,13 @@ fn by_name(files: &Value) -> BTreeMap<String, Vec<String>> {
     let mut entries: Vec<(&String, &str)> =
         files.as_object().into_iter().flatten().filter_map(|(path, digest)| Some((path, digest.as_str()?))).collect();
     entries.sort_unstable();
-    let mut known: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut digests_by_name: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (path, digest) in entries {
         if let Some(name) = Path::new(path).file_name() {
-            known.entry(name.to_string_lossy().into_owned()).or_default().push(digest.to_owned());
+            digests_by_name.entry(name.to_string_lossy().into_owned()).or_default().push(digest.to_owned());
         }
     }
-    known
+    digests_by_name
 }
 
 #[cfg(test)]

@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::design::Design;
-use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
-use crate::run::{DesignKey, Reply, Request, RowValues, answered};
+use crate::model::{Model, RowFailure, RunContext};
+use crate::run::{DesignKey, Reply, Request, RowValues, RowWorker, answered};
 use crate::study::Study;
-use apportion_base::clock::Instant;
 
 /// The source of requests and the receiver of replies.
 pub trait Requests {
@@ -29,11 +28,11 @@ pub struct WorkerStudy {
 impl WorkerStudy {
     /// Creates the models of `study`, which must be the same as that of the run in the other process.
     pub fn new(mut study: Study) -> Self {
-        if study.lows.is_empty() {
-            study.lows = study.subject.cheaper();
+        if study.low_fidelities.is_empty() {
+            study.low_fidelities = study.subject.cheaper();
         }
-        let lows = study.lows.iter().map(|low| low.subject.model(&study.space));
-        let models = std::iter::once(study.model()).chain(lows).collect();
+        let low_fidelity = study.low_fidelities.iter().map(|low| low.subject.model(&study.space));
+        let models = std::iter::once(study.model()).chain(low_fidelity).collect();
         Self { study, models }
     }
 
@@ -45,8 +44,13 @@ impl WorkerStudy {
             let reply = match request.and_then(|request| Some((self.models.get(request.subject)?, request))) {
                 None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
-                    let new = || RemoteServer::new(&self.study, model.as_ref(), context);
-                    servers.entry(request.subject).or_insert_with(new).reply(request)
+                    let server = servers.entry(request.subject);
+                    let server = server.or_insert_with(|| RemoteServer {
+                        study: &self.study,
+                        worker: RowWorker::new(model.as_ref(), context),
+                        current: None,
+                    });
+                    server.reply(request)
                 }
             };
             requests.reply(reply.write());
@@ -58,39 +62,31 @@ impl WorkerStudy {
 /// A worker of one model, which evaluates rows for other processes.
 struct RemoteServer<'a> {
     study: &'a Study,
-    worker: Box<dyn Worker + 'a>,
-    batch: Batch,
-    /// The design of the last request, and its computed points.
-    current: Option<(DesignKey, Design, RowValues)>,
+    worker: RowWorker<'a>,
+    /// The design of the last request.
+    current: Option<(DesignKey, Design)>,
 }
 
-impl<'a> RemoteServer<'a> {
-    fn new(study: &'a Study, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
-        Self { study, worker: model.worker(context), batch: Batch::new(model), current: None }
-    }
-
+impl RemoteServer<'_> {
     /// Evaluates the rows of a request, of a design that differs from that of the study by its key.
     fn reply(&mut self, Request { design: key, range, .. }: Request) -> Reply {
-        let current = self.current.take().filter(|(current, ..)| *current == key);
-        let new = || Some((key.clone(), key.design(&self.study.design)?, RowValues::default()));
-        let Some(current) = current.or_else(new) else { return refusal("an unknown design") };
-        let (_, design, values) = self.current.insert(current);
+        if self.current.as_ref().is_none_or(|(current, _)| *current != key) {
+            self.current = key.design(&self.study.design).map(|design| (key, design));
+            self.worker.values = RowValues::default();
+        }
+        let Some((_, design)) = &self.current else { return refusal("an unknown design") };
         let rows = design.points_per_replicate() * design.rows_per_point();
         if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
             return refusal("rows that are not in the design");
         }
-        let begun = Instant::now();
-        let inputs = values.values(&self.study.space, design, range.replicate, range.rows.clone());
-        self.batch.reset(range.count() as usize);
-        self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
-        self.batch.settle();
-        let seconds = begun.elapsed().as_secs_f64();
-        Reply { seconds, given_up: self.batch.given_up().cloned(), pieces: answered(&range, &self.batch) }
+        let seconds = self.worker.run(&self.study.space, design, &range);
+        let batch = &self.worker.batch;
+        Reply { seconds, given_up: batch.given_up().cloned(), blocks: answered(&range, batch) }
     }
 }
 
 /// Returns the reply to a request that cannot be met.
 fn refusal(what: &str) -> Reply {
     let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {what}")).into());
-    Reply { seconds: 0.0, given_up, pieces: Vec::new() }
+    Reply { seconds: 0.0, given_up, blocks: Vec::new() }
 }

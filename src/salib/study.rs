@@ -6,7 +6,7 @@ use super::{SalibLayout, SalibProblem};
 use crate::design::{Design, RowKind, Sampler};
 use crate::given::Column;
 use crate::model::{FunctionModel, Output, RowFailure};
-use crate::run::{Piece, Store};
+use crate::run::{RowBlock, Store};
 use crate::space::Distribution;
 use crate::study::{AnalysisOptions, BuildError, ExternalSubject, Study, SurrogateChoice};
 use crate::uncertainty::IntervalMethod;
@@ -73,19 +73,19 @@ pub fn salib_study(
     study.subject = Arc::new(ExternalSubject { outputs: stated, series: Vec::new() });
     let places = places(&study.design, layout, d);
     let points = rows / step;
-    let mut piece = Piece::default();
+    let mut block = RowBlock::default();
     let reason = RowFailure::new("the table has no finite number for it");
     for row in (0..points).flat_map(|point| places.iter().map(move |place| point * step + place)) {
         for (number, column) in outputs.iter().enumerate() {
             let value = column.values[row];
             if !value.is_finite() {
-                piece.failures.push(((piece.values.len() / outputs.len()) as u32, number as u32, reason.clone()));
+                block.failures.push(((block.values.len() / outputs.len()) as u32, number as u32, reason.clone()));
             }
-            piece.values.push(if value.is_finite() { value } else { f64::NAN });
+            block.values.push(if value.is_finite() { value } else { f64::NAN });
         }
     }
     let store = Store::new(study.model().as_ref());
-    store.insert(&piece);
+    store.insert(&block);
     Ok((study, store))
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
 use crate::model::{Batch, RowFailure, RunContext};
-use crate::run::{Halt, Progress, RunError, TableRun, failed_rows};
+use crate::run::{EvaluationStopped, Progress, RunError, TableRun, failed_rows};
 use crate::space::Factor;
 use apportion_base::clock::Instant;
 
@@ -65,8 +65,8 @@ pub(super) fn run(
         batch.reset(rows * moves.len());
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         run.run(&inputs, &mut batch).map_err(|halt| match halt {
-            Halt::GaveUp(give_up) => RunError::GaveUp(give_up),
-            Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
+            EvaluationStopped::GaveUp(give_up) => RunError::GaveUp(give_up),
+            EvaluationStopped::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
         })?;
         for (output, (effects, values)) in outcome.effects.iter_mut().zip(&mut outcome.values).enumerate() {
             for (moves, values) in moves.iter().zip(batch.column(output).chunks_exact(rows)) {

@@ -235,7 +235,7 @@ impl StudyBuilder {
             design,
             analysis,
             target: length.target,
-            lows: self.low_fidelities,
+            low_fidelities: self.low_fidelities,
             source: StudySource { notes, ..StudySource::default() },
         })
     }

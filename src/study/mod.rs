@@ -37,7 +37,7 @@ pub struct Study {
     pub(crate) design: Design,
     pub(crate) analysis: AnalysisOptions,
     pub(crate) target: Target,
-    pub(crate) lows: Vec<LowFidelity>,
+    pub(crate) low_fidelities: Vec<LowFidelity>,
     pub(crate) source: StudySource,
 }
 
@@ -149,7 +149,7 @@ impl Study {
 
     /// Returns the low-fidelity models of the same outputs, used where they help.
     pub fn low_fidelities(&self) -> &[LowFidelity] {
-        &self.lows
+        &self.low_fidelities
     }
 
     /// Returns the study of another subject, with the same outputs or others.
@@ -181,7 +181,7 @@ impl Study {
     /// Returns the study without low-fidelity models.
     #[must_use]
     pub fn without_low_fidelities(self) -> Self {
-        Self { lows: Vec::new(), ..self }
+        Self { low_fidelities: Vec::new(), ..self }
     }
 
     /// Returns the study as one that was read from a file.
@@ -250,7 +250,7 @@ impl Study {
         let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
         let model = self.model();
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        (is_automatic && design.plain_rows() == 0 && self.lows.is_empty())
+        (is_automatic && design.plain_rows() == 0 && self.low_fidelities.is_empty())
             .then(|| (values, model.concurrency().is_some()))
     }
 

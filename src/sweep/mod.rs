@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::model::{Batch, Model, Output, RowFailure, RunContext};
-use crate::run::{Halt, TableRun};
+use crate::run::{EvaluationStopped, TableRun};
 use crate::space::Space;
 use crate::study::{did_you_mean, nearest};
 
@@ -96,7 +96,7 @@ pub struct Gap {
 pub enum SweepError {
     /// The model gave up, or the sweep was stopped.
     #[error(transparent)]
-    Halted(#[from] Halt),
+    Halted(#[from] EvaluationStopped),
     /// The factor is unknown.
     #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), factors.join(", "))]
     UnknownFactor {
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns every output for each of `values` of one factor, in its unit.
-    fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, Halt> {
+    fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, EvaluationStopped> {
         let factors = self.space.factors();
         let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();
         let max_rows = self.run.rows_at_once();

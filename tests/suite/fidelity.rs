@@ -80,8 +80,8 @@ fn intervals_contain_the_exact_values_and_bits_do_not_depend_on_threads() {
     let result = study.run().unwrap();
     let used = result.outputs[0].surrogate.clone().unwrap();
     let json = result;
-    assert_eq!(json.lows.len(), 1);
-    assert_eq!((json.lows[0].shared_runs, json.lows[0].own_runs), (64 * 5, 1024 * 5));
+    assert_eq!(json.low_fidelity.len(), 1);
+    assert_eq!((json.low_fidelity[0].shared_runs, json.low_fidelity[0].own_runs), (64 * 5, 1024 * 5));
     assert!(used.corrects_total && used.gain_total.unwrap() > 100.0, "{used:?}");
 }
 

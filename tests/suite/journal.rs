@@ -337,7 +337,7 @@ fn a_quick_run_keeps_no_journal_and_is_doubled_to_the_same_bits() {
 }
 
 #[test]
-fn a_journal_of_sums_of_an_earlier_version_is_refused() {
+fn a_journal_of_another_format_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let journal = folder.path().join("ishigami.journal");
     std::fs::write(&journal, b"apportion journal\x02\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}").unwrap();

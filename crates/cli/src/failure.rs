@@ -6,8 +6,8 @@ use std::path::Path;
 
 use apportion::design::DesignError;
 use apportion::result::ReadError;
-use apportion::run::journal::JournalError;
-use apportion::run::{Halt, RunError};
+use apportion::run::journal::{JournalError, JournalProblem};
+use apportion::run::{EvaluationStopped, RunError};
 use apportion::screening::ScreeningError;
 use apportion::sweep::SweepError;
 use apportion_files::StudyError;
@@ -42,20 +42,34 @@ impl<T, E: Display> OfFile<T> for Result<T, E> {
     }
 }
 
+/// Returns the message of an error, with what to do about it in the words of the command line.
+pub fn message(error: &anyhow::Error) -> String {
+    let remedy = match error.downcast_ref::<RunError>() {
+        Some(RunError::TooManyOutputs { .. }) => {
+            ": use fewer base samples or outputs, intervals = \"batches\", or start again without saved outputs (--restart)"
+        }
+        Some(RunError::Journal(JournalError { problem: JournalProblem::OtherModel(_), .. })) => {
+            ": its runs are from the earlier version. Undo the change, or start again with --restart"
+        }
+        Some(RunError::Journal(JournalError { problem: JournalProblem::PartlyMerged, .. })) => {
+            ": merge the shards of one run only, into a folder without a journal (--out)"
+        }
+        _ => "",
+    };
+    format!("{error}{remedy}")
+}
+
 /// Returns the exit code of an error.
 pub fn exit_code(error: &anyhow::Error) -> u8 {
     if is_bad_input(error) { 2 } else { 1 }
 }
 
 fn is_bad_input(error: &anyhow::Error) -> bool {
-    // The path as given, not as resolved.
-    let is_bad_path = |error: &WriteError| error.source.kind() == ErrorKind::NotADirectory;
-    let is_bad_model = |halt: &Halt| matches!(halt, Halt::GaveUp(give_up) if give_up.is_bad_input);
     if let Some(error) = error.downcast_ref::<RunError>() {
         match error {
             RunError::GaveUp(give_up) => give_up.is_bad_input,
-            RunError::Journal(JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }) => true,
-            _ => matches!(error, RunError::Refused { .. } | RunError::Journal(JournalError::NoFile { .. })),
+            RunError::Journal(JournalError { problem, .. }) => problem.is_bad_input(),
+            _ => false,
         }
     } else if let Some(error) = error.downcast_ref::<ArtefactError>() {
         match error {
@@ -64,7 +78,7 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
             _ => false,
         }
     } else if let Some(error) = error.downcast_ref::<SweepError>() {
-        if let SweepError::Halted(halt) = error { is_bad_model(halt) } else { true }
+        if let SweepError::Halted(stopped) = error { is_bad_model(stopped) } else { true }
     } else if let Some(EvaluateError::Halted { halt, .. }) = error.downcast_ref() {
         is_bad_model(halt)
     } else if let Some(error) = error.downcast_ref::<ScreeningError>() {
@@ -78,4 +92,13 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
             || error.is::<ReadError>()
             || error.is::<DesignError>()
     }
+}
+
+/// Returns whether the path as given, not as resolved, is wrong.
+fn is_bad_path(error: &WriteError) -> bool {
+    error.source.kind() == ErrorKind::NotADirectory
+}
+
+fn is_bad_model(stopped: &EvaluationStopped) -> bool {
+    matches!(stopped, EvaluationStopped::GaveUp(give_up) if give_up.is_bad_input)
 }

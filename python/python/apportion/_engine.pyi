@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 __version__: str
 
-class StudyError(ValueError): ...
+class StudyError(ValueError):
+    problem: str
 class RunError(RuntimeError):
     result: Any
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -65,17 +64,6 @@ def refuse_unknown(keywords: Iterable[str], known: Iterable[str]) -> None:
         if meant in RUN and meant not in known:
             hint = f"did you mean {meant}, which run() and analyse() take?"
         raise StudyError(f"unknown keyword {keyword}: {hint}")
-
-
-def of_arguments(message: str) -> str:
-    """A message about the text of a study as a message about the arguments: without places and lines of the text."""
-    first, *others = message.split("\n")
-    first = re.sub(r"^[^:\n]*\.toml:\d+:\d+: ", "", first)
-    shown = next((line.split("|", 1)[1].strip() for line in others if re.match(r"\d+ +\|", line)), "")
-    if first.startswith("invalid "):
-        first = f"{shown}: {first}"
-    notes = [line.strip(" =") for line in others if re.match(" *= ", line)]
-    return "; ".join([first, *notes])
 
 
 def factors_of(factors: Any) -> dict[str, Factor]:

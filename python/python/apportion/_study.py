@@ -24,7 +24,6 @@ from ._keys import (
     dependence_tables,
     factors_of,
     lengths_of,
-    of_arguments,
     overridden,
     refuse_unknown,
     said,
@@ -178,7 +177,7 @@ class Study:
         try:
             self._study = _engine.Study.parse(*self._made_from)
         except StudyError as error:
-            raise StudyError(of_arguments(str(error))) from None
+            raise StudyError(error.problem) from None
 
     def __getstate__(self) -> dict[str, Any]:
         return {key: value for key, value in vars(self).items() if key != "_study"}

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 
 fn tally(point: u64) -> Tally {
-    Tally { count: 1, first: Place { replicate: 0, point, run: 0 } }
+    Tally { count: 1, first: RowPosition { replicate: 0, point, run: 0 } }
 }
 
 fn counted(reasons: &[(u64, String)]) -> Failures {

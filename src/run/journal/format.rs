@@ -7,14 +7,12 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::error::JournalError;
+use super::error::{JournalError, JournalProblem};
 use crate::model::{CounterKind, Counts, RowFailure};
-use crate::run::Piece;
+use crate::run::RowBlock;
 
 const MAGIC: &[u8] = b"apportion journal";
 const VERSION: u32 = 1;
-/// Written in every record in place of the model's effort, a field from before models had counters.
-const LEGACY_EFFORT: [u8; 20] = [0; 20];
 
 /// Bytes that remain to be read.
 pub(in crate::run) struct Reader<'a> {
@@ -43,9 +41,9 @@ impl<'a> Reader<'a> {
 pub struct Contents {
     /// The identity of its study.
     pub header: Value,
-    /// Its pieces, in the order in which they were written: later ones replace earlier ones.
-    pub pieces: Vec<Piece>,
-    /// Bytes up to the end of the last whole record.
+    /// Its blocks, in the order in which they were written: later ones replace earlier ones.
+    pub blocks: Vec<RowBlock>,
+    /// Bytes up to the end of the last complete record.
     pub length: u64,
     /// Bytes after it: a record that was cut short or damaged, and everything that follows.
     pub cut_off: u64,
@@ -60,27 +58,26 @@ pub(super) fn write_header(out: &mut Vec<u8>, header: &Value) {
     out.extend_from_slice(text.as_bytes());
 }
 
-/// Appends a piece as a record.
-pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
+/// Appends a block as a record.
+pub(in crate::run) fn write_record(out: &mut Vec<u8>, block: &RowBlock) {
     let begin = out.len();
     out.extend_from_slice(&[0; 8]);
-    for number in [piece.replicate, piece.first, piece.values.len() as u64] {
+    for number in [block.replicate, block.first, block.values.len() as u64] {
         out.extend_from_slice(&number.to_le_bytes());
     }
-    piece.values.iter().for_each(|value| out.extend_from_slice(&value.to_bits().to_le_bytes()));
-    out.extend_from_slice(&(piece.failures.len() as u32).to_le_bytes());
-    for (row, output, why) in &piece.failures {
+    block.values.iter().for_each(|value| out.extend_from_slice(&value.to_bits().to_le_bytes()));
+    out.extend_from_slice(&(block.failures.len() as u32).to_le_bytes());
+    for (row, output, why) in &block.failures {
         let why = why.to_string();
         for number in [*row, *output, why.len() as u32] {
             out.extend_from_slice(&number.to_le_bytes());
         }
         out.extend_from_slice(why.as_bytes());
     }
-    out.extend_from_slice(&(piece.flags.len() as u32).to_le_bytes());
-    piece.flags.iter().for_each(|raised| out.extend_from_slice(&raised.to_le_bytes()));
-    out.extend_from_slice(&LEGACY_EFFORT);
-    out.extend_from_slice(&(piece.counts.0.len() as u64).to_le_bytes());
-    for (kind, value) in &piece.counts.0 {
+    out.extend_from_slice(&(block.flags.len() as u32).to_le_bytes());
+    block.flags.iter().for_each(|raised| out.extend_from_slice(&raised.to_le_bytes()));
+    out.extend_from_slice(&(block.counts.0.len() as u64).to_le_bytes());
+    for (kind, value) in &block.counts.0 {
         out.push(u8::from(*kind == CounterKind::Maximum));
         out.extend_from_slice(&value.to_le_bytes());
     }
@@ -103,47 +100,59 @@ fn checksum(length: &[u8], body: &[u8]) -> u32 {
 /// # Errors
 /// [`JournalError`] if it is no journal, or of another version. Damaged records are cut off.
 pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError> {
-    let wrong = |found: &str| JournalError::NotAJournal { path: path.to_owned(), found: found.to_owned() };
     let mut reader = Reader { bytes };
+    let header = header(&mut reader).map_err(|problem| problem.at(path))?;
+    let mut blocks = Vec::new();
+    let mut cut_off = reader.bytes.len();
+    while let Some(block) = record(&mut reader) {
+        blocks.push(block);
+        cut_off = reader.bytes.len();
+    }
+    Ok(Contents { header, blocks, length: (bytes.len() - cut_off) as u64, cut_off: cut_off as u64 })
+}
+
+fn header(reader: &mut Reader<'_>) -> Result<Value, JournalProblem> {
+    const CUT_SHORT: &str = "its header is cut short";
+    if reader.bytes.is_empty() {
+        return Err(JournalProblem::invalid("the file is empty"));
+    }
     if reader.take(MAGIC.len()) != Some(MAGIC) {
-        return Err(wrong(if bytes.is_empty() { "the file is empty" } else { "it does not begin like a journal" }));
+        return Err(JournalProblem::invalid("it does not begin like a journal"));
     }
-    let short = || wrong("its header is cut short");
-    let version = reader.u32().ok_or_else(short)?;
-    if version != VERSION {
-        return Err(JournalError::OtherVersion { path: path.to_owned(), version });
+    match reader.u32() {
+        Some(VERSION) => (),
+        Some(version) => return Err(JournalProblem::OtherFormat(version)),
+        None => return Err(JournalProblem::invalid(CUT_SHORT)),
     }
-    let (length, checksum) = (reader.u32().ok_or_else(short)?, reader.u32().ok_or_else(short)?);
-    let text = reader.take(length as usize).ok_or_else(short)?;
+    let Some((checksum, text)) = header_text(reader) else { return Err(JournalProblem::invalid(CUT_SHORT)) };
     if crc32fast::hash(text) != checksum {
-        return Err(wrong("its header is damaged"));
+        return Err(JournalProblem::invalid("its header is damaged"));
     }
-    let header: Value = serde_json::from_slice(text).map_err(|error| wrong(&error.to_string()))?;
-    let mut pieces = Vec::new();
-    let mut whole = reader.bytes.len();
-    while let Some(piece) = record(&mut reader) {
-        pieces.push(piece);
-        whole = reader.bytes.len();
-    }
-    Ok(Contents { header, pieces, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
+    serde_json::from_slice(text).map_err(|error| JournalProblem::invalid(&error.to_string()))
+}
+
+/// Returns the checksum and the text of the header.
+fn header_text<'a>(reader: &mut Reader<'a>) -> Option<(u32, &'a [u8])> {
+    let (length, checksum) = (reader.u32()?, reader.u32()?);
+    Some((checksum, reader.take(length as usize)?))
 }
 
 /// Reads the next record, if it is complete.
-pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
+pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<RowBlock> {
     let (length, expected) = (reader.u32()?, reader.u32()?);
     let body = reader.take(length as usize)?;
     if checksum(&length.to_le_bytes(), body) != expected {
         return None;
     }
     let mut reader = Reader { bytes: body };
-    let piece = piece(&mut reader)?;
-    reader.bytes.is_empty().then_some(piece)
+    let block = block(&mut reader)?;
+    reader.bytes.is_empty().then_some(block)
 }
 
 /// Maximum number of rows in a replicate of a journal: more than any design has, and too few to overflow sums.
 const MAX_ROWS: u64 = 1 << 60;
 
-fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
+fn block(reader: &mut Reader<'_>) -> Option<RowBlock> {
     let (replicate, first, count) = (reader.u64()?, reader.u64()?, reader.u64()?);
     if first > MAX_ROWS {
         return None;
@@ -157,21 +166,14 @@ fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
         failures.push((row, output, RowFailure::new(why)));
     }
     let flags = (0..reader.u32()?).map(|_| reader.u64()).collect::<Option<_>>()?;
-    reader.take(LEGACY_EFFORT.len()).filter(|effort| *effort == LEGACY_EFFORT)?;
-    // Records of older versions end here.
-    let counts = if reader.bytes.is_empty() { Counts::default() } else { counts(reader)? };
-    Some(Piece { replicate, first, values, failures, flags, counts })
-}
-
-fn counts(reader: &mut Reader<'_>) -> Option<Counts> {
-    let length = reader.u64()?;
-    let mut count = || {
+    let mut counts = Vec::new();
+    for _ in 0..reader.u64()? {
         let kind = match reader.take(1)? {
             [0] => CounterKind::Sum,
             [1] => CounterKind::Maximum,
             _ => return None,
         };
-        Some((kind, f64::from_bits(reader.u64()?)))
-    };
-    (0..length).map(|_| count()).collect::<Option<_>>().map(Counts)
+        counts.push((kind, f64::from_bits(reader.u64()?)));
+    }
+    Some(RowBlock { replicate, first, values, failures, flags, counts: Counts(counts) })
 }

@@ -1,4 +1,4 @@
-//! The journal of a run: a file of finished pieces with checksums that survives an abrupt end of the run.
+//! The journal of a run: a file of finished blocks with checksums that survives an abrupt end of the run.
 //!
 //! A journal is a header, which identifies the study, and records, which are only appended, each by one write. Reading
 //! stops at a record that was cut short or damaged: it and all after it are evaluated again. The format is described in
@@ -17,13 +17,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-pub use error::JournalError;
+pub use error::{JournalError, JournalProblem};
 pub use format::{Contents, read_journal};
 pub(super) use format::{Reader, record, write_record};
 pub use identity::differences;
 use serde_json::Value;
 
-use super::Piece;
+use super::RowBlock;
 use apportion_base::clock::Instant;
 use apportion_base::files::{read_opened, read_whole};
 
@@ -35,7 +35,7 @@ const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 
 /// A journal open for appending, by one process at a time.
 #[derive(Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     writer: Mutex<Writer>,
 }
 
@@ -60,7 +60,7 @@ impl Journal {
         let mut buffer = Vec::new();
         format::write_header(&mut buffer, header);
         let written = writer.append(&buffer).and_then(|()| writer.file.sync_data());
-        written.map_err(|source| JournalError::unwritable(path, source))?;
+        written.map_err(|error| JournalProblem::Unwritable(error).at(path))?;
         Ok(Self { writer: Mutex::new(writer) })
     }
 
@@ -72,19 +72,26 @@ impl Journal {
     pub fn resume(path: &Path) -> Result<(Self, Contents), JournalError> {
         refuse_no_file(path)?;
         let mut file = open_locked(path, false)?;
-        let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
+        let bytes = read_opened(&mut file).map_err(|error| JournalProblem::Unreadable(error).at(path))?;
         let contents = read_journal(path, &bytes)?;
         let writer = Writer { file, length: contents.length, synced: Instant::now() };
         Ok((Self { writer: Mutex::new(writer) }, contents))
     }
 
-    /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
+    /// Returns a journal at `path`, an empty file, to which nothing can be written.
+    #[cfg(test)]
+    pub(super) fn read_only(path: &Path) -> Self {
+        let file = File::open(path).expect("an empty file");
+        Self { writer: Mutex::new(Writer { file, length: 0, synced: Instant::now() }) }
+    }
+
+    /// Appends a block, by one write: when this returns, the block survives the death of the program.
     ///
     /// # Errors
     /// The error of the operating system; the journal then ends with the previous record.
-    pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
+    pub fn append(&self, block: &RowBlock) -> std::io::Result<()> {
         let mut record = Vec::new();
-        format::write_record(&mut record, piece);
+        format::write_record(&mut record, block);
         self.writer.lock().unwrap_or_else(PoisonError::into_inner).append(&record)
     }
 
@@ -118,7 +125,7 @@ impl Writer {
     }
 }
 
-/// Returns the path with `ending` after its whole name, so that different journals get different companion files.
+/// Returns the path with `ending` after its full name, so that different journals get different companion files.
 pub(crate) fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(ending);
@@ -128,7 +135,7 @@ pub(crate) fn with_ending(path: &Path, ending: &str) -> PathBuf {
 /// Refuses anything but a regular file: opening a pipe waits for its other end, and a device stores nothing.
 fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
     match std::fs::metadata(path) {
-        Ok(there) if !there.is_file() => Err(JournalError::NoFile { path: path.to_owned() }),
+        Ok(there) if !there.is_file() => Err(JournalProblem::NoFile.at(path)),
         _ => Ok(()),
     }
 }
@@ -137,17 +144,17 @@ fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
 ///
 /// # Errors
 /// [`JournalError`] if the file cannot be read, or is no journal.
-pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
+pub(crate) fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
     refuse_no_file(path)?;
-    let bytes = read_whole(path).map_err(|source| JournalError::unreadable(path, source))?;
+    let bytes = read_whole(path).map_err(|error| JournalProblem::Unreadable(error).at(path))?;
     read_journal(path, &bytes)
 }
 
 /// Opens the journal at `path` and locks it; creates it if it is missing and `creates`.
 fn open_locked(path: &Path, creates: bool) -> Result<File, JournalError> {
     let file = OpenOptions::new().create(creates).truncate(false).read(true).write(true).open(path);
-    let wrong = if creates { JournalError::unwritable } else { JournalError::unreadable };
-    let file = file.map_err(|source| wrong(path, source))?;
+    let problem = if creates { JournalProblem::Unwritable } else { JournalProblem::Unreadable };
+    let file = file.map_err(|error| problem(error).at(path))?;
     lock(path, &file)?;
     Ok(file)
 }
@@ -159,7 +166,7 @@ fn lock(path: &Path, file: &File) -> Result<(), JournalError> {
             Ok(()) => return Ok(()),
             // A child of the process that held the lock also holds it between fork and exec.
             Err(TryLockError::WouldBlock) if begin.elapsed() < LOCK_PATIENCE => thread::sleep(LOCK_PATIENCE / 50),
-            Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
+            Err(TryLockError::WouldBlock) => return Err(JournalProblem::InUse.at(path)),
             // Some file systems do not support locks.
             Err(TryLockError::Error(_)) => return Ok(()),
         }

@@ -4,72 +4,78 @@ use serde_json::json;
 use super::*;
 use crate::model::{CounterKind, Counts, RowFailure};
 
-fn piece(first: u64, rows: usize) -> Piece {
+fn block(first: u64, rows: usize) -> RowBlock {
     let values = (0..rows).map(|row| if row == 2 { f64::NAN } else { (first as f64 + row as f64).sqrt() }).collect();
     let failures = if rows > 2 { vec![(2, 0, RowFailure::new("the tip slipped: \u{3bc} < 0"))] } else { Vec::new() };
     let counts = [(CounterKind::Sum, rows as f64), (CounterKind::Sum, 7.0), (CounterKind::Maximum, 1e-9)];
     let counts = Counts(counts.to_vec());
-    Piece { replicate: 3, first, values, failures, flags: vec![1, 2], counts }
+    RowBlock { replicate: 3, first, values, failures, flags: vec![1, 2], counts }
 }
 
 #[track_caller]
-fn assert_same(found: &[Piece], expected: &[Piece]) {
+fn assert_same(found: &[RowBlock], expected: &[RowBlock]) {
     // NaN is not equal to itself, but its text is.
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
 }
 
-fn written(pieces: &[Piece]) -> (tempfile::TempDir, PathBuf) {
+fn written(blocks: &[RowBlock]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.journal");
     let journal = Journal::create(&path, &json!({ "study": "a" })).unwrap();
-    pieces.iter().for_each(|piece| journal.append(piece).unwrap());
+    blocks.iter().for_each(|block| journal.append(block).unwrap());
     (folder, path)
 }
 
 #[test]
 fn appended_records_are_read_back() {
-    let pieces = [piece(0, 5), piece(5, 1), piece(6, 300)];
-    let (_folder, path) = written(&pieces[..2]);
+    let blocks = [block(0, 5), block(5, 1), block(6, 300)];
+    let (_folder, path) = written(&blocks[..2]);
     let (journal, contents) = Journal::resume(&path).unwrap();
     assert_eq!((contents.header, contents.cut_off), (json!({ "study": "a" }), 0));
-    assert_same(&contents.pieces, &pieces[..2]);
-    journal.append(&pieces[2]).unwrap();
+    assert_same(&contents.blocks, &blocks[..2]);
+    journal.append(&blocks[2]).unwrap();
     drop(journal);
-    assert_same(&read_journal(&path, &std::fs::read(&path).unwrap()).unwrap().pieces, &pieces);
+    assert_same(&read_journal(&path, &std::fs::read(&path).unwrap()).unwrap().blocks, &blocks);
     // A new one replaces the old one.
     drop(Journal::create(&path, &json!({ "study": "b" })).unwrap());
     let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
-    assert_eq!((contents.header, contents.pieces.len()), (json!({ "study": "b" }), 0));
+    assert_eq!((contents.header, contents.blocks.len()), (json!({ "study": "b" }), 0));
 }
 
 #[test]
 fn a_truncated_journal_keeps_every_complete_record_and_resumes() {
-    let pieces = [piece(0, 5), piece(5, 1), piece(6, 4)];
-    let (_folder, path) = written(&pieces);
+    let blocks = [block(0, 5), block(5, 1), block(6, 4)];
+    let (_folder, path) = written(&blocks);
     let bytes = std::fs::read(&path).unwrap();
-    let ends: Vec<usize> = (0..=3).map(|count| std::fs::read(&written(&pieces[..count]).1).unwrap().len()).collect();
+    let ends: Vec<usize> = (0..=3).map(|count| std::fs::read(&written(&blocks[..count]).1).unwrap().len()).collect();
     for length in 0..bytes.len() {
         if length < ends[0] {
-            assert!(matches!(read_journal(&path, &bytes[..length]), Err(JournalError::NotAJournal { .. })), "{length}");
+            assert!(
+                matches!(
+                    read_journal(&path, &bytes[..length]),
+                    Err(JournalError { problem: JournalProblem::Invalid(_), .. })
+                ),
+                "{length}"
+            );
             continue;
         }
         let whole = ends.iter().rposition(|end| *end <= length).unwrap();
         std::fs::write(&path, &bytes[..length]).unwrap();
         let (journal, contents) = Journal::resume(&path).unwrap();
-        assert_same(&contents.pieces, &pieces[..whole]);
+        assert_same(&contents.blocks, &blocks[..whole]);
         assert_eq!(contents.cut_off, (length - ends[whole]) as u64);
-        journal.append(&piece(40, 1)).unwrap();
+        journal.append(&block(40, 1)).unwrap();
         drop(journal);
         let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
-        assert_same(&contents.pieces[whole..], &[piece(40, 1)]);
+        assert_same(&contents.blocks[whole..], &[block(40, 1)]);
         assert_eq!(contents.cut_off, 0);
     }
 }
 
 #[test]
 fn damage_is_cut_off_and_never_read_as_outputs() {
-    let pieces = [piece(0, 5), piece(5, 3), piece(8, 4)];
-    let (_folder, path) = written(&pieces);
+    let blocks = [block(0, 5), block(5, 3), block(8, 4)];
+    let (_folder, path) = written(&blocks);
     let bytes = std::fs::read(&path).unwrap();
     let header = std::fs::read(&written(&[]).1).unwrap().len();
     for at in 0..bytes.len() {
@@ -78,15 +84,15 @@ fn damage_is_cut_off_and_never_read_as_outputs() {
         match read_journal(&path, &damaged) {
             Err(_) => assert!(at < header, "byte {at}"),
             Ok(contents) => {
-                assert!(at >= header && contents.pieces.len() < 3, "byte {at}");
-                assert_same(&contents.pieces, &pieces[..contents.pieces.len()]);
+                assert!(at >= header && contents.blocks.len() < 3, "byte {at}");
+                assert_same(&contents.blocks, &blocks[..contents.blocks.len()]);
             }
         }
     }
     // The content that some file systems leave at the end of a file that was not completely written to the disk.
     let zeros = [&bytes[..], &[0; 4096]].concat();
     let contents = read_journal(&path, &zeros).unwrap();
-    assert_eq!((contents.pieces.len(), contents.cut_off), (3, 4096));
+    assert_eq!((contents.blocks.len(), contents.cut_off), (3, 4096));
 }
 
 #[test]
@@ -104,9 +110,12 @@ fn paths_that_are_not_files_are_refused_at_once() {
     let pipe = folder.path().join("pipe");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     for path in [&pipe, Path::new("/dev/null"), folder.path()] {
-        assert!(matches!(Journal::create(path, &json!({})), Err(JournalError::NoFile { .. })), "{path:?}");
-        assert!(matches!(Journal::resume(path), Err(JournalError::NoFile { .. })));
-        assert!(matches!(read_journal_file(path), Err(JournalError::NoFile { .. })));
+        assert!(
+            matches!(Journal::create(path, &json!({})), Err(JournalError { problem: JournalProblem::NoFile, .. })),
+            "{path:?}"
+        );
+        assert!(matches!(Journal::resume(path), Err(JournalError { problem: JournalProblem::NoFile, .. })));
+        assert!(matches!(read_journal_file(path), Err(JournalError { problem: JournalProblem::NoFile, .. })));
     }
 }
 
@@ -115,9 +124,9 @@ fn two_runs_cannot_write_one_journal() {
     let (_folder, path) = written(&[]);
     let (journal, _) = Journal::resume(&path).unwrap();
     let refused = Journal::resume(&path).unwrap_err();
-    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    assert!(matches!(refused.problem, JournalProblem::InUse), "{refused}");
     let refused = Journal::create(&path, &json!({})).unwrap_err();
-    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    assert!(matches!(refused.problem, JournalProblem::InUse), "{refused}");
     drop(journal);
     assert!(Journal::resume(&path).is_ok());
 }

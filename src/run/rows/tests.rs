@@ -4,6 +4,7 @@ use std::time::Duration;
 use super::*;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, FunctionModel, Model, Output, RowFailure, RunContext, Worker};
+use crate::run::journal::read_journal_file;
 use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
 use apportion_base::quantity::Unit;
@@ -27,16 +28,6 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
         y[0] = x[0] + 2.0 * x[1];
         if x[0] > 0.75 { Err(RowFailure::new("too large")) } else { Ok(()) }
     })
-}
-
-impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
-    fn is_open(&self) -> bool {
-        true
-    }
-
-    fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self(piece)
-    }
 }
 
 fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
@@ -87,20 +78,19 @@ fn shards_make_up_the_whole_run() {
     let whole = Store::new(&model);
     for number in [3, 1, 2] {
         let shard: Shard = format!("{number}/3").parse().unwrap();
-        let (part, kept) = (Store::new(&model), Mutex::new(Vec::new()));
-        let sink = |piece: &Piece| {
-            kept.lock().unwrap().push(piece.clone());
-            Ok(())
-        };
+        let part = Store::new(&model);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("part.journal");
+        let journal = Journal::create(&path, &serde_json::json!({})).unwrap().into();
         let space = space();
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
         let mut run = GrowingRun::new(job, &context, 2).unwrap();
-        run.sink = Some(&sink);
+        run.journal = Some(&journal);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
-        kept.lock().unwrap().iter().for_each(|piece| {
-            whole.insert(piece);
-        });
+        for block in read_journal_file(&path).unwrap().blocks {
+            whole.insert(&block);
+        }
     }
     rows.store(0, Ordering::Relaxed);
     assert!(format!("{:?}", with_store(&design, &model, &whole, u64::MAX).unwrap()) == plain);
@@ -201,13 +191,14 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let model = counted(&rows);
     let design = design(4 * BLOCK, 1);
     let store = Store::new(&model);
-    let full = |_: &Piece| Err(std::io::Error::from(std::io::ErrorKind::StorageFull));
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let journal = Journal::read_only(file.path()).into();
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
     let mut run = GrowingRun::new(job, &context, 2).unwrap();
     run.store = Some(&store);
-    run.sink = Some(&full);
+    run.journal = Some(&journal);
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     assert!(matches!(error, RunError::NotKept { .. }), "{error}");
     assert_eq!(store.count(0, 0..design.rows()).0, 0);

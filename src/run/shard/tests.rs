@@ -5,16 +5,16 @@ use crate::design::{DesignSettings, Rows};
 fn the_parts_are_the_whole_and_none_is_in_two() {
     let settings = DesignSettings { base_samples: 100, replicates: 4, ..DesignSettings::default() };
     let design = Design::new(settings, 2, Rows::plain(vec![vec![0], vec![1]])).unwrap();
-    for of in [1, 2, 3, 7, 100, 150] {
+    for count in [1, 2, 3, 7, 100, 150] {
         let mut rows: Vec<(u64, u64)> = Vec::new();
         let mut sizes = Vec::new();
-        for number in 1..=of {
-            let part = Shard { number, of }.rows(&design);
+        for number in 1..=count {
+            let part = Shard { number, count }.rows(&design);
             sizes.push(part.iter().map(|(_, rows)| rows.end - rows.start).sum::<u64>());
             rows.extend(part.into_iter().flat_map(|(replicate, rows)| rows.map(move |row| (replicate, row))));
         }
         let all: Vec<(u64, u64)> = (0..4).flat_map(|replicate| (0..100).map(move |row| (replicate, row))).collect();
-        assert_eq!(rows, all, "{of} parts");
+        assert_eq!(rows, all, "{count} parts");
         assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= design.rows_per_point());
     }
 }

@@ -1,5 +1,7 @@
 use super::*;
 
+use serde_json::json;
+
 #[test]
 fn files_are_known_by_name_wherever_they_are_and_those_of_one_name_apart() {
     let before = json!({ "study/a/table.csv": "1", "study/b/table.csv": "2", "study/model": "3" });

@@ -162,11 +162,11 @@ fn on_record(case: &Case) -> (usize, usize, usize) {
     let journal = case.path("out/study.journal");
     let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
     let (mut all, mut right, mut wrong) = (0, 0, 0);
-    for piece in &contents.pieces {
+    for block in &contents.blocks {
         let mut values = RowValues::default();
-        let end = piece.first + piece.rows(1);
-        let x = values.values(study.space(), study.design(), piece.replicate, piece.first..end);
-        for (row, y) in piece.values.iter().enumerate() {
+        let end = block.first + block.rows(1);
+        let x = values.values(study.space(), study.design(), block.replicate, block.first..end);
+        for (row, y) in block.values.iter().enumerate() {
             let expected = x[0][row] + 2.0 * x[1][row] + x[0][row] * x[2][row];
             all += 1;
             right += usize::from(*y == expected);

@@ -50,7 +50,7 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
 #[cfg(target_os = "linux")]
 #[test]
 fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
-    // With 4 ms a row, pieces that take 0.2 s have at most 50 rows.
+    // With 4 ms a row, blocks that take 0.2 s have at most 50 rows.
     const IN_FLIGHT: usize = 2 * 50;
     const ROWS: usize = 512 * 5;
     let slow = format!("{NOTES}    open(f'pid-{{os.getpid()}}', 'w')\n    time.sleep(0.004)\n    answer(y)\n");
@@ -58,7 +58,7 @@ fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
     let journal = case.path("out/study.journal");
     let on_record = || -> usize {
         let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
-        contents.pieces.iter().map(|piece| piece.rows(1) as usize).sum()
+        contents.blocks.iter().map(|block| block.rows(1) as usize).sum()
     };
     let (study, out) = (case.path("study.toml"), case.path("out"));
     let arguments = ["run", text(&study), "--out", text(&out)];

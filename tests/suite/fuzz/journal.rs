@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use apportion::run::journal::{JournalError, differences, read_journal};
+use apportion::run::journal::{JournalProblem, differences, read_journal};
 
 /// The header of a journal without anything in it.
 const HEADER: &[u8] = b"apportion journal\x01\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}";
 
-/// Bytes are refused with the file and a reason, or every piece that is read is complete. They are read as a journal, and as
+/// Bytes are refused with the file and a reason, or every block that is read is complete. They are read as a journal, and as
 /// the body of a record with the right checksum, which no fuzzer would find.
 pub fn run(bytes: &[u8]) {
     read(bytes);
@@ -21,13 +21,13 @@ pub fn run(bytes: &[u8]) {
 fn read(bytes: &[u8]) {
     match read_journal(Path::new("fuzz.journal"), bytes) {
         Err(error) => {
-            assert!(!matches!(error, JournalError::InUse { .. }));
+            assert!(!matches!(error.problem, JournalProblem::InUse));
             assert!(error.to_string().starts_with("fuzz.journal: "), "{error}");
         }
         Ok(contents) => {
             assert_eq!(contents.length + contents.cut_off, bytes.len() as u64);
-            for piece in &contents.pieces {
-                assert!(piece.first.checked_add(piece.rows(1)).is_some());
+            for block in &contents.blocks {
+                assert!(block.first.checked_add(block.rows(1)).is_some());
             }
             assert!(differences(&contents.header, &contents.header).is_empty());
             differences(&contents.header, &contents.header["identity"]);

@@ -232,7 +232,7 @@ fn exit_code(outcome: anyhow::Result<()>) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     if !error.is::<Silent>() {
-        say(&format!("error: {error}"));
+        say(&format!("error: {}", failure::message(&error)));
     }
     ExitCode::from(failure::exit_code(&error))
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use apportion::model::{Output, OutputSeries, RowFailure};
-use apportion::run::{Piece, Store};
+use apportion::run::{RowBlock, Store};
 use apportion::space::{Factor, Space};
 use apportion::study::{ExternalSubject, Study, Subject};
 use apportion_base::digest::Sha256;
@@ -69,9 +69,9 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         if count < expected {
             return refused(format!("the file has {row} rows, but the design has {}", design.rows()));
         }
-        let mut piece = Piece { replicate, first: rows.start, ..Piece::default() };
-        fill(&mut piece, model.outputs(), answers, request.missing, row - count as u64)?;
-        store.insert(&piece);
+        let mut block = RowBlock { replicate, first: rows.start, ..RowBlock::default() };
+        fill(&mut block, model.outputs(), answers, request.missing, row - count as u64)?;
+        store.insert(&block);
         Ok(())
     })?;
     if reader.read(&wanted, 1, &mut cells)? > 0 {
@@ -90,7 +90,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
 
 /// Fills in the outputs of a block, which follows `before` rows.
 fn fill(
-    piece: &mut Piece,
+    block: &mut RowBlock,
     outputs: &[Output],
     answers: &[Vec<f64>],
     missing: Missing,
@@ -111,9 +111,9 @@ fn fill(
                         "row {row}, column `{name}`: {what}; --missing-as-failed counts such rows as runs that failed"
                     ));
                 }
-                piece.failures.push((row as u32, number as u32, reason.clone()));
+                block.failures.push((row as u32, number as u32, reason.clone()));
             }
-            piece.values.push(if si.is_finite() { si } else { f64::NAN });
+            block.values.push(if si.is_finite() { si } else { f64::NAN });
         }
     }
     Ok(())

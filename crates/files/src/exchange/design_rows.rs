@@ -127,10 +127,10 @@ pub fn write_rows(
         points.iter_mut().for_each(|column| column.truncate(count as usize));
         add_rows(&mut digest, points);
         if let Some(store) = store {
-            let piece = store.piece(replicate, rows);
-            let piece = piece.ok_or_else(|| std::io::Error::other("outputs of the design are missing"))?;
+            let block = store.block(replicate, rows);
+            let block = block.ok_or_else(|| std::io::Error::other("outputs of the design are missing"))?;
             for (number, (column, output)) in answers.iter_mut().zip(outputs).enumerate() {
-                let of_output = piece.values.iter().skip(number).step_by(outputs.len());
+                let of_output = block.values.iter().skip(number).step_by(outputs.len());
                 *column = of_output.map(|si| output.unit.from_si(*si)).collect();
             }
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use apportion::model::{Batch, Output, RowFailure, RunContext};
-use apportion::run::{Halt, TableRun};
+use apportion::run::{EvaluationStopped, TableRun};
 use apportion::space::{Factor, Space};
 use apportion::study::{Study, did_you_mean, nearest};
 use thiserror::Error;
@@ -28,7 +28,7 @@ pub enum EvaluateError {
         /// Number of points evaluated before.
         points: u64,
         /// Why.
-        halt: Halt,
+        halt: EvaluationStopped,
     },
 }
 

@@ -152,6 +152,11 @@ impl Diagnostic {
             mark,
         }
     }
+
+    /// Returns the line of the file, or the part of a long one around the position.
+    pub fn source_line(&self) -> &str {
+        &self.source_line
+    }
 }
 
 /// Maximum number of characters of a line that are shown, and the number shown before the position in a longer one.

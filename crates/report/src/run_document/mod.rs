@@ -9,7 +9,7 @@ mod shared;
 mod tables;
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
+use apportion::result::{AccuracyRecord, AggregateRecord, LowFidelityRuns, StudyRecord, StudyResult};
 use apportion_base::text::{capitalised, listed};
 use figures::Figures;
 pub use series::one_output;
@@ -159,7 +159,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
         ];
         parts.push(Table::pairs("Fidelities used.", rows).into());
     }
-    let low = |low: &LowRuns| {
+    let low = |low: &LowFidelityRuns| {
         format!(
             "{} ({} at the rows of the model, {} at additional points)",
             low.name,
@@ -167,9 +167,9 @@ fn cost(result: &StudyResult) -> Vec<Part> {
             grouped(low.own_runs)
         )
     };
-    if !result.lows.is_empty() {
-        let lows: Vec<String> = result.lows.iter().map(low).collect();
-        parts.push(Part::Text(format!("Low-fidelity models: {}.", lows.join(", "))));
+    if !result.low_fidelity.is_empty() {
+        let low_fidelity: Vec<String> = result.low_fidelity.iter().map(low).collect();
+        parts.push(Part::Text(format!("Low-fidelity models: {}.", low_fidelity.join(", "))));
     }
     if let Some(spending) = &result.spending {
         parts.push(Part::Notice {
@@ -191,7 +191,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
 }
 
 /// Describes what a run with a target accuracy chose, why, and what it saved.
-fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
+fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
     let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
     let spent = grouped(spending.runs);
     let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);

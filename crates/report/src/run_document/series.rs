@@ -71,7 +71,7 @@ fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Opt
         series: Vec::new(),
         stopping: result.stopping.clone(),
         spending: result.spending.clone(),
-        lows: result.lows.clone(),
+        low_fidelity: result.low_fidelity.clone(),
     }
 }
 
