@@ -10,17 +10,18 @@ use super::output::{OutputRows, output_result};
 use super::scatter::rows_of_scatter;
 use super::series::{series, single_outputs, together, together_record, together_records};
 use super::setup::{factor_record, study_record, validity};
-use super::stop::Stopped;
 use super::surrogates::Corrections;
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, MIN_OUTPUTS_TOGETHER, Model, RUNGS};
-use crate::result::{AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StoppingRecord, StudyResult};
+use crate::result::{
+    AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StopReason, StoppingRecord, StudyResult,
+};
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::IntervalMethod;
 
 /// Returns the result of a run; `stopped` is why a growing one ended.
-pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyResult {
+pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> StudyResult {
     let FinishedRun { study, model, design, replicates, lows, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
@@ -47,7 +48,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
         effort: effort(model, &whole),
         aggregate: aggregate(run),
         series,
-        stopping: stopped.map(|stopped| stopping(study, stopped)),
+        stopping: stopped.map(|reason| stopping(study, reason)),
         spending: None,
         lows: lows.iter().map(low_runs).collect(),
     }
@@ -63,11 +64,11 @@ fn low_runs(low: &LowTotals<'_>) -> LowRuns {
     }
 }
 
-fn stopping(study: &Study, stopped: &Stopped) -> StoppingRecord {
+fn stopping(study: &Study, reason: StopReason) -> StoppingRecord {
     let target = study.target;
     StoppingRecord {
-        reason: stopped.reason.to_string(),
-        target_met: stopped.target_met,
+        reason,
+        target_met: target.accuracy.map(|_| matches!(reason, StopReason::TargetMet { .. })),
         target_half_width: target.accuracy,
         budget_seconds: target.max_time,
         max_runs: target.max_runs,
@@ -86,7 +87,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
-        sampler: settings.sampler.name().to_owned(),
+        sampler: settings.sampler,
         base_samples: settings.base_samples,
         replicates: settings.replicates,
         plain_rows: design.plain_rows(),
@@ -96,8 +97,8 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         study_sha256: study.source.sha256.clone(),
         first_order_estimator: first_order.source().to_owned(),
         total_estimator: total.source().to_owned(),
-        interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
-        interval_method: options.intervals.name().to_owned(),
+        interval_method: (!alone).then_some(options.intervals),
+        resamples: (options.intervals == IntervalMethod::Percentile).then_some(options.resamples),
         threshold: options.threshold,
         model_files: study.subject.files().iter().map(|file| name_of(file)).collect(),
     }
@@ -116,17 +117,12 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
         return None;
     }
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
-    let (scaling, weighting) = match same_unit {
-        true => (Scaling::Plain, "each output counts by its variance (Gamboa et al. 2014)"),
-        false => {
-            (Scaling::Standardised, "each output is divided by its standard deviation first, since their units differ")
-        }
-    };
+    let weighting = if same_unit { Scaling::Plain } else { Scaling::Standardised };
     let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
-    let indices = together(run, places.into_iter(), scaling);
+    let indices = together(run, places.into_iter(), weighting);
     Some(AggregateRecord {
         outputs: names,
-        weighting: weighting.to_owned(),
+        weighting,
         indices: indices.as_ref().ok().map(|all| together_records(study, all)),
         noise: study
             .space

@@ -1,12 +1,17 @@
-//! Warnings about results: their kinds, codes and words.
+//! Warnings about results: their kinds, numbers and words.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 use super::RareLevel;
+use apportion_base::names::named;
+use apportion_base::quantity::Unlikely;
 
-/// Why numbers of an output may be wrong, or less accurate than they look.
-#[derive(Debug, Clone, Error)]
+/// Why numbers of an output may be wrong, or less accurate than they look. In JSON the kind is the key `code`, a name that
+/// does not change, followed by the fields and the sentence as `text`.
+#[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
     /// No run has a value.
@@ -35,7 +40,7 @@ pub enum Warning {
         "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
          succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
          and more runs cannot define these indices there; narrow the ranges until no run fails, study an output \
-         that is 1 where a run fails and 0 elsewhere, or pass the rows that succeed (--save-outputs) to given-data"
+         that is 1 where a run fails and 0 elsewhere, or analyse the rows that succeed as given data"
     )]
     JointFailures {
         /// Base points whose rows A and B succeeded, and another row did not.
@@ -122,7 +127,9 @@ pub enum Warning {
          allow: the rows do not represent a factor, so the plain ones are reported"
     )]
     ContradictedSurrogate {
-        /// The distance relative to both errors.
+        /// The distance relative to both errors; `null` for infinity.
+        #[serde(deserialize_with = "or_infinity")]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         times: f64,
     },
     /// Surrogates claim more variance than the rows show; the plain indices are reported.
@@ -131,7 +138,9 @@ pub enum Warning {
          the plain indices are reported"
     )]
     InflatedSurrogate {
-        /// The variance claimed over that of the rows.
+        /// The variance claimed over that of the rows; `null` for infinity.
+        #[serde(deserialize_with = "or_infinity")]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         times: f64,
     },
     /// A level of a factor is rare among the rows.
@@ -168,7 +177,7 @@ pub enum Warning {
     /// The noise may have the whole effect.
     #[error(
         "{factor}: all variance may be noise, so the indices of the mean over it may be far off: use more base samples, \
-         or several runs of each row (repetitions in [noise])"
+         or several runs of each row (repetitions)"
     )]
     AllNoise {
         /// The seed.
@@ -216,16 +225,17 @@ pub enum Warning {
     },
     /// A requested estimator disagrees with the default one.
     #[error(
-        "{name}: the {index} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
-         difference: one of the two is wrong for this output"
+        "{name}: the {} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
+         difference: one of the two is wrong for this output",
+        index.name()
     )]
     EstimatorsDiffer {
         /// Factor, group or subset.
         name: String,
-        /// `first-order` or `total`.
-        index: &'static str,
+        /// Which of its indices.
+        index: IndexKind,
         /// The estimator.
-        estimator: &'static str,
+        estimator: String,
         /// The difference.
         gap: f64,
     },
@@ -264,97 +274,92 @@ pub enum Warning {
          design; if the order is right, the output is interaction only"
     )]
     Shuffled,
-    /// A value that may be a code for a missing one.
-    #[error("{text}")]
-    Unlikely {
-        /// The value and its place.
-        text: String,
-    },
+    /// An output of the runs that may be a code for a missing one; `first` is the index of the run.
+    #[error("{}", .0.in_runs())]
+    UnlikelyValue(Unlikely),
+    /// The same in a table of outputs; `first` is the index of the row.
+    #[error("{}", .0.in_table())]
+    UnlikelyInTable(Unlikely),
     /// Repeated rows gave different outputs.
-    #[error("{text}")]
+    #[error(
+        "{differing} of {rows} {} run again gave other outputs: {} (docs/stochastic-models.md)",
+        if *rows == 1 { "row that was" } else { "rows that were" },
+        cause.explanation(*has_noise)
+    )]
     Irreproducible {
-        /// How many, and why.
-        text: String,
-    },
-    /// A warning of a result that was read from a file.
-    #[error("{text}")]
-    Recorded {
-        /// Its code.
-        code: String,
-        /// Its sentence.
-        text: String,
+        /// Number of rows with a different output.
+        differing: u64,
+        /// Number of repeated rows.
+        rows: u64,
+        /// The cause.
+        cause: Irreproducible,
+        /// Whether the model gets a seed with every row.
+        has_noise: bool,
     },
 }
 
-/// Warnings are equal if their texts are: those read from a file are equal to those that were written.
-impl PartialEq for Warning {
-    fn eq(&self, other: &Self) -> bool {
-        self.code() == other.code() && self.to_string() == other.to_string()
-    }
-}
-
-/// The keys of the warnings of an output in JSON.
+named! {
+/// The first-order or the total index.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct WarningKeys {
-    /// The warnings in sentences.
-    warnings: Vec<String>,
-    /// The kind of each warning, a stable name.
-    #[serde(default)]
-    warning_codes: Vec<String>,
+#[serde(rename_all = "kebab-case")]
+pub enum IndexKind {
+    /// The first-order index.
+    FirstOrder = "first-order",
+    /// The total index.
+    Total = "total",
+}
 }
 
-/// Writes warnings as [`WarningKeys`].
-pub(super) fn serialize<S: Serializer>(all: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
-    let warnings = all.iter().map(Warning::to_string).collect();
-    let warning_codes = all.iter().map(|warning| warning.code().to_owned()).collect();
-    WarningKeys { warnings, warning_codes }.serialize(serializer)
+/// Why a model does not return the same output for the same row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Irreproducible {
+    /// New workers that evaluate the same rows in the same order differ: the model draws random numbers.
+    Random,
+    /// New workers agree with each other but not with the run: the model depends on earlier rows.
+    Remembers,
 }
 
-/// Reads warnings from [`WarningKeys`]; those of the first versions have no codes.
-pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Warning>, D::Error> {
-    let WarningKeys { warnings, warning_codes } = WarningKeys::deserialize(deserializer)?;
-    let codes = warning_codes.into_iter().chain(std::iter::repeat(String::new()));
-    Ok(warnings.into_iter().zip(codes).map(|(text, code)| Warning::Recorded { code, text }).collect())
-}
-
-impl Warning {
-    /// Returns a stable name of the kind of warning, as in the result file.
-    pub fn code(&self) -> &str {
-        match self {
-            Self::AllRunsFailed { .. } => "all-runs-failed",
-            Self::RunsFailed { .. } => "runs-failed",
-            Self::JointFailures { .. } => "joint-failures",
-            Self::Unbalanced { .. } => "unbalanced",
-            Self::SingleReplicate => "single-replicate",
-            Self::SingleNet => "single-net",
-            Self::ModelFlag { .. } => "model-flag",
-            Self::FewRows { .. } => "few-rows",
-            Self::FewDigits { .. } => "few-digits",
-            Self::NoIntervals => "no-intervals",
-            Self::HeavyTailedSurrogate => "heavy-tailed-surrogate",
-            Self::DoubtedSurrogate => "doubted-surrogate",
-            Self::ContradictedSurrogate { .. } => "contradicted-surrogate",
-            Self::InflatedSurrogate { .. } => "inflated-surrogate",
-            Self::RareLevel(_) => "rare-level",
-            Self::PoorSurrogate { .. } => "poor-surrogate",
-            Self::DependentSteps { .. } => "dependent-steps",
-            Self::NoNoise { .. } => "no-noise",
-            Self::AllNoise { .. } => "all-noise",
-            Self::AboveTotal { .. } => "above-total",
-            Self::Contradictory { .. } => "contradictory",
-            Self::FormulasDiffer { .. } => "formulas-differ",
-            Self::EstimatorsDiffer { .. } => "estimators-differ",
-            Self::NoFirstOrder => "no-first-order",
-            Self::FirstOrderAboveOne { .. } => "first-order-above-one",
-            Self::TotalsBelowOne { .. } => "totals-below-one",
-            Self::TotalAboveOne { .. } => "total-above-one",
-            Self::Shuffled => "shuffled",
-            Self::Unlikely { .. } => "unlikely-value",
-            Self::Irreproducible { .. } => "irreproducible",
-            Self::Recorded { code, .. } => code,
+impl Irreproducible {
+    /// Returns what it means for the indices, and what to do.
+    fn explanation(self, has_noise: bool) -> &'static str {
+        match (self, has_noise) {
+            (Self::Random, false) => {
+                "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
+                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
+            }
+            (Self::Random, true) => {
+                "the model draws random numbers without its seed, and the indices of the factors include their noise"
+            }
+            (Self::Remembers, _) => {
+                "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
+                 one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
+                 values only, with random numbers from a seed of its row (noise = \"seed\")"
+            }
         }
     }
+}
+
+/// A warning with its sentence, as in JSON.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(super) struct WithText<'a> {
+    #[serde(flatten)]
+    warning: &'a Warning,
+    /// The warning in a sentence.
+    text: String,
+}
+
+/// Writes warnings with their sentences, which are ignored when they are read.
+pub(super) fn with_texts<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(warnings.iter().map(|warning| WithText { warning, text: warning.to_string() }))
+}
+
+/// Reads a number that is `null` if it is infinite.
+fn or_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 /// Formats an index in a warning: four decimals, or three digits if it is smaller.

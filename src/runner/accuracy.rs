@@ -8,10 +8,9 @@
 
 use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
-use crate::analysis::StopReason;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::RunContext;
-use crate::result::{OutputResult, SpendingRecord, StudyResult};
+use crate::result::{OutputResult, SpendingRecord, StopReason, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::uncertainty::largest_half_width;
@@ -158,32 +157,13 @@ impl Attempt<'_> {
             runs: self.runs,
             plain_runs: plain_runs(study, &result, accuracy),
             reasons: self.reasons.clone(),
-            lines: lines(study, self.runner.study.lows.len(), &result),
+            surrogate: study.analysis.surrogate,
+            stated_lows: self.runner.study.lows.len(),
         });
         // Report the limit of the study, not that of this attempt.
         result.stopping.iter_mut().for_each(|stopping| stopping.max_runs = self.runner.study.target.max_runs);
         Ok((result, reason))
     }
-}
-
-/// Returns the lines of a study with `lows` low-fidelity models that repeat the run of this attempt.
-fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
-    let provenance = &result.provenance;
-    let mut lines = match provenance.plain_rows {
-        0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
-        _ => format!("[design]\nruns = {}\n", provenance.model_runs),
-    };
-    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", attempt.analysis.surrogate.name()));
-    if let [low] = &result.lows[..] {
-        lines.push_str("[fidelity]\n");
-        lines.push_str(&match lows {
-            0 => format!("low = [\"{}\"]\n", low.name),
-            1 => String::new(),
-            _ => format!("# keep only `{}` in `low`\n", low.name),
-        });
-        lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
-    }
-    lines
 }
 
 /// Returns the smallest share of the variance of an output that surrogates explain.

@@ -2,9 +2,10 @@
 
 use super::Runner;
 use super::low_fidelity::LowRun;
-use crate::analysis::{StopReason, Stopped, enough_base_samples, interval_options, rare_levels, surrogates};
+use crate::analysis::{enough_base_samples, interval_options, rare_levels, surrogates};
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
+use crate::result::StopReason;
 use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
@@ -18,7 +19,7 @@ const MIN_BASE_SAMPLES: u64 = 1 << 12;
 const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a growing run stopped, and the surrogate estimates of every output.
-pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+pub(super) type Grown = (StopReason, Vec<Option<SurrogateEstimates>>);
 
 /// Maximum number of base samples to which a run grows for the rare levels of factors.
 const MAX_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
@@ -51,7 +52,7 @@ impl Runner<'_> {
         on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Grown, RunError> {
         let longest = run.design();
-        let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
+        let is_met = |reason: &StopReason| matches!(reason, StopReason::TargetMet { .. });
         let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
         if self.study.target.accuracy.is_some() && !lows.is_empty() {
             // If the first runs suffice, low-fidelity models need not run.
@@ -146,7 +147,7 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
 }
 
 /// Returns why the run should stop; `None` if it should be doubled again.
-fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: &Stage) -> Option<Stopped> {
+fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: &Stage) -> Option<StopReason> {
     let widest = stage.widest;
     let Target { accuracy, max_time, max_runs } = study.target;
     let next = run.points_per_replicate() * 2;
@@ -161,7 +162,7 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     let is_met = stage.is_checked && accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
     let design = is_met.then(|| longest.with_points(run.points_per_replicate()).ok()).flatten();
     let rare = design.map_or_else(Vec::new, |design| rare_levels(&study.space, &design));
-    let reason = match (accuracy, widest) {
+    Some(match (accuracy, widest) {
         (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
         (Some(target), Some(widest)) if is_met && rare.is_empty() => StopReason::TargetMet { widest, target },
         (Some(_), Some(widest)) if enough_base_samples(&rare) > MAX_FOR_RARE_LEVELS => {
@@ -171,13 +172,13 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,
         _ => match (max_runs, max_time) {
-            (Some(most), _) if runs > u128::from(most) => StopReason::MaxRuns { runs, most },
+            (Some(most), _) if runs > u128::from(most) => {
+                StopReason::MaxRuns { runs: u64::try_from(runs).unwrap_or(u64::MAX), most }
+            }
             (_, Some(budget)) if seconds > budget => StopReason::Budget { seconds, budget },
             _ => return None,
         },
-    };
-    let target_met = accuracy.map(|_| matches!(reason, StopReason::TargetMet { .. }));
-    Some(Stopped { reason, target_met })
+    })
 }
 
 /// Returns whether more runs failed than an output with indices may have.

@@ -17,9 +17,9 @@ use journal::RunJournal;
 use low_fidelity::{LowRun, LowStudy};
 pub use worker::{Requests, WorkerStudy};
 
-use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
+use crate::analysis::{FinishedRun, LowTotals, result};
 use crate::model::{Messages, RunContext};
-use crate::result::{StudyResult, Warning};
+use crate::result::{StopReason, StudyResult};
 use crate::run::{
     GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows,
     threads_in_force,
@@ -319,15 +319,14 @@ impl<'a> Runner<'a> {
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
-        let mut result = run.install(|| result(&finished, stopped.as_ref()));
+        let mut result = run.install(|| result(&finished, stopped));
         let evaluated = evaluated.into_inner();
         if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
             for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
-                let text = repeats.warning(*differing, study.space.noise().is_some());
-                output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
+                output.warnings.extend(repeats.warning(*differing, study.space.noise().is_some()));
             }
         }
-        Ok((result, stopped.map(|stopped| stopped.reason)))
+        Ok((result, stopped))
     }
 
     /// Runs the study and its low-fidelity models; returns why it stopped and the surrogate estimates, if it grows.

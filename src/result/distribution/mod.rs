@@ -139,10 +139,14 @@ fn moments(values: &[f64]) -> [f64; 4] {
     let n = values.len() as f64;
     let mean = mean(values);
     let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
-    let moment = |k: i32| centred.iter().map(|c| c.powi(k)).sum::<f64>() / n;
-    let m2 = moment(2);
+    let m2 = moment(&centred, 2);
     let sd = libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent);
-    [mean, sd, moment(3) / libm::pow(m2, 1.5), moment(4) / (m2 * m2) - 3.0]
+    [mean, sd, moment(&centred, 3) / libm::pow(m2, 1.5), moment(&centred, 4) / (m2 * m2) - 3.0]
+}
+
+/// Returns the central moment of order `k` of values less their mean.
+fn moment(centred: &[f64], k: i32) -> f64 {
+    centred.iter().map(|c| c.powi(k)).sum::<f64>() / centred.len() as f64
 }
 
 /// Returns the histogram of a sorted sample that varies with this standard deviation, in the scale of its values.

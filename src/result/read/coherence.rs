@@ -48,8 +48,8 @@ fn of_factors<'a>(key: &str, result: &StudyResult, names: impl Iterator<Item = &
 
 /// Checks a name used in file names (those of the study and its outputs): it must not lead to another folder.
 fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
-    let leads_away = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
-    if name.is_empty() || name.chars().count() > most || name.contains(leads_away) {
+    let leads_away = name.contains(|c: char| matches!(c, '/' | '\\' | ':') || c.is_control());
+    if leads_away || name.is_empty() || name.chars().count() > most {
         let problem =
             format!("files are named after it, so it cannot be {name:?}: expected a short name without / \\ :");
         return Err((key.to_owned(), problem));

@@ -70,8 +70,8 @@ struct Header {
 /// [`ReadError`] with what is wrong: a file that cannot be read, that is not JSON or JSON of another kind, an unknown
 /// version of the format, or inconsistent parts.
 pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
-    let read = || parse_result(&read_whole(path)?);
-    read().map_err(|problem| ReadError { path: path.to_owned(), problem })
+    let parsed = read_whole(path).map_err(ReadProblem::from).and_then(|json| parse_result(&json));
+    parsed.map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 
 /// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Unknown keys of later versions are ignored.
@@ -100,8 +100,9 @@ pub fn parse_result(json: &[u8]) -> Result<StudyResult, ReadProblem> {
         return Err(ReadProblem::Version { found: version });
     }
     let result = serde_json::from_slice(json)?;
-    let incoherent = |(key, problem)| ReadProblem::Incoherent { key, problem };
-    coherence::counts(&serde_json::from_slice(json)?, "").map_err(incoherent)?;
-    coherence::check(&result).map_err(incoherent)?;
+    let counts = coherence::counts(&serde_json::from_slice(json)?, "");
+    counts
+        .and_then(|()| coherence::check(&result))
+        .map_err(|(key, problem)| ReadProblem::Incoherent { key, problem })?;
     Ok(result)
 }

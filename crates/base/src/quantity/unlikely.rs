@@ -1,5 +1,7 @@
 //! Detection of unlikely values: codes for missing ones, and errors.
 
+use serde::{Deserialize, Serialize};
+
 use super::is_same;
 
 /// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
@@ -25,7 +27,8 @@ const FAR: f64 = 1e3;
 const MIN_VALUES: usize = 10;
 
 /// A value that may not come from the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Unlikely {
     /// The value.
     pub value: f64,
@@ -68,21 +71,22 @@ impl Unlikely {
         })
     }
 
-    /// Describes it in a table; `row` is the row of its first occurrence, from 1.
-    pub fn in_table(&self, row: usize) -> String {
-        format!("{}, read it as one (--missing-value={:?})", self.words("row", row), self.value)
+    /// Describes it in the rows of a table.
+    pub fn in_table(&self) -> String {
+        format!("{}, read it as one", self.words("row"))
     }
 
-    /// Describes it in runs; `run` is the number of the run of its first occurrence, from 1.
-    pub fn in_runs(&self, run: usize) -> String {
-        format!("{}, let the model report a failed run there", self.words("run", run))
+    /// Describes it in runs.
+    pub fn in_runs(&self) -> String {
+        format!("{}, let the model report a failed run there", self.words("run"))
     }
 
-    fn words(&self, what: &str, first: usize) -> String {
-        let Self { value, count, of, others: (low, high), .. } = self;
+    fn words(&self, what: &str) -> String {
+        let Self { value, count, first, of, others: (low, high) } = self;
         format!(
-            "the value {value:?} occurs in {count} of {of} {what}s (the first is {what} {first}), and all others lie between \
-             {low:?} and {high:?}: if it marks a missing value"
+            "the value {value:?} occurs in {count} of {of} {what}s (the first is {what} {}), and all others lie between \
+             {low:?} and {high:?}: if it marks a missing value",
+            first + 1
         )
     }
 }

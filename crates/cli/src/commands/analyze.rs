@@ -67,8 +67,8 @@ fn output_unit(text: &str) -> Result<(String, Unit), String> {
 struct Read {
     study: Study,
     store: Store,
-    /// A sentence on the unlikely value of each output, if it has one.
-    unlikely: Vec<Option<String>>,
+    /// The unlikely value of each output, if it has one.
+    unlikely: Vec<Option<Unlikely>>,
 }
 
 pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
@@ -79,7 +79,10 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {
-        output.warnings.splice(0..0, unlikely.map(|text| Warning::Unlikely { text }));
+        if let Some(Unlikely { value, .. }) = unlikely {
+            say(&format!("note: --missing-value={value:?} reads {value:?} of {} as a missing value", output.name));
+        }
+        output.warnings.splice(0..0, unlikely.map(Warning::UnlikelyInTable));
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -187,8 +190,7 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
     let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).in_file(path)?;
-    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
-    Ok(Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
+    Ok(Read { study, store, unlikely: outputs.iter().map(|output| Unlikely::find(&output.values)).collect() })
 }
 
 /// What the problem file says, if there is one.

@@ -1,19 +1,30 @@
-//! Reasons why a growing run stops.
+//! Why a growing run ended.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Why a growing run ended, and whether it met its target.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stopped {
+/// Why a growing run ended, and its targets.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StoppingRecord {
     /// The reason.
     pub reason: StopReason,
-    /// Whether every index met the target; `None` if there was none.
+    /// Whether every index met the target; `null` if there was none.
     pub target_met: Option<bool>,
+    /// The requested half width.
+    pub target_half_width: Option<f64>,
+    /// The maximum time, in seconds.
+    pub budget_seconds: Option<f64>,
+    /// The maximum number of model runs.
+    pub max_runs: Option<u64>,
 }
 
 /// Why a growing run was not doubled again.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub(crate) enum StopReason {
+#[derive(Debug, Clone, Copy, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum StopReason {
     /// Every interval is as narrow as requested.
     #[error("every half width is {widest:.2e} or less: the target of {target} is met")]
     TargetMet {
@@ -52,7 +63,7 @@ pub(crate) enum StopReason {
     #[error("twice the runs would be {runs}, more than max_runs = {most}")]
     MaxRuns {
         /// Twice the runs.
-        runs: u128,
+        runs: u64,
         /// The maximum number of runs.
         most: u64,
     },
