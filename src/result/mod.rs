@@ -80,15 +80,12 @@ pub struct StudyResult {
     /// Indices over all outputs together, if requested.
     pub aggregate: Option<AggregateRecord>,
     /// The outputs that are series.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub series: Vec<SeriesRecord>,
     /// Why a growing run ended; `null` for one of fixed size.
     pub stopping: Option<StoppingRecord>,
     /// The choices of a run with a target accuracy, and their reasons.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub spending: Option<SpendingRecord>,
     /// Low-fidelity models that were run in addition to the model.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lows: Vec<LowRuns>,
 }
 
@@ -146,7 +143,6 @@ pub struct StudyRecord {
     /// The model's inputs that are fixed in the study, with their units.
     pub constants: Vec<ConstantRecord>,
     /// Factors that depend on each other.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dependences: Vec<CorrelationRecord>,
     /// Changes made on the command line, as given.
     pub overrides: Vec<String>,
@@ -232,7 +228,6 @@ pub struct FactorRecord {
     /// Its name.
     pub name: String,
     /// What it is, if the model says so.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
     /// The unit of its values.
     pub unit: String,
@@ -266,7 +261,6 @@ pub struct AggregateRecord {
     /// One entry per factor; `null` if an output has no indices.
     pub indices: Option<Vec<PlainIndexRecord>>,
     /// The noise of a stochastic model, which is not a factor.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub noise: Option<PlainIndexRecord>,
     /// Why there are no indices.
     pub reason: Option<String>,

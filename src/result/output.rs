@@ -51,10 +51,8 @@ pub struct OutputResult {
     /// Indices of a factor without effect, if one was added: the noise of the model.
     pub dummy: Option<EffectEstimates>,
     /// The noise of a stochastic model, which is not a factor, and the indices of the mean over it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
-    /// Other measures of influence, if requested; absent if the output does not vary, or too few runs succeeded.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Other measures of influence, if requested; `null` if the output does not vary, or too few runs succeeded.
     pub measures: Option<RunMeasures>,
     /// Second-order indices of all pairs of factors, if requested.
     pub second_order: Option<Vec<PairRecord>>,
@@ -63,7 +61,6 @@ pub struct OutputResult {
     /// The use of surrogates; `null` without any.
     pub surrogate: Option<SurrogateRecord>,
     /// The gain by surrogates in a trial, if one decided on them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub surrogate_trial: Option<SurrogateTrial>,
     /// The indices and their intervals at stages of the run, without surrogates.
     pub convergence: Vec<StageRecord>,
@@ -231,22 +228,10 @@ pub struct RunMeasures {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LookupError {
-    /// The name is unknown.
+    /// The name of an output, factor or other part (`what`) is unknown.
     #[error("there is no {what} `{name}`; there are: {}", existing.join(", "))]
-    UnknownName {
-        /// The kind of the name.
-        what: &'static str,
-        /// The name.
-        name: String,
-        /// The existing names.
-        existing: Vec<String>,
-    },
+    UnknownName { what: &'static str, name: String, existing: Vec<String> },
     /// The output has no indices.
     #[error("output `{output}` has no indices: {reason}")]
-    NoIndices {
-        /// The output.
-        output: String,
-        /// The cause.
-        reason: String,
-    },
+    NoIndices { output: String, reason: String },
 }

@@ -16,51 +16,27 @@ use apportion_base::quantity::Unlikely;
 pub enum Warning {
     /// No run has a value.
     #[error("all {runs} runs failed")]
-    AllRunsFailed {
-        /// The runs.
-        runs: u64,
-    },
-    /// Some runs have no value.
+    AllRunsFailed { runs: u64 },
+    /// Some runs have no value; an index leaves out at most `left_out` base points.
     #[error(
         "{failed} of {runs} runs failed: every index leaves out the base points at which one of its own runs failed (at \
          most {left_out} of {base_samples}), and describes the part of the factor space where runs succeed"
     )]
-    RunsFailed {
-        /// Runs without a value.
-        failed: u64,
-        /// All runs.
-        runs: u64,
-        /// Maximum number of base points that an index leaves out.
-        left_out: u64,
-        /// All base points.
-        base_samples: u64,
-    },
-    /// Runs fail because of several factors together.
+    RunsFailed { failed: u64, runs: u64, left_out: u64, base_samples: u64 },
+    /// Runs fail because of several factors together: at some base points rows A and B succeed and another row does not.
     #[error(
         "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
          succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
          and more runs cannot define these indices there; narrow the ranges until no run fails, study an output \
          that is 1 where a run fails and 0 elsewhere, or analyse the rows that succeed as given data"
     )]
-    JointFailures {
-        /// Base points whose rows A and B succeeded, and another row did not.
-        points: u64,
-        /// All base points.
-        base_samples: u64,
-    },
-    /// The points of a replicate are not a power of two.
+    JointFailures { points: u64, base_samples: u64 },
+    /// The points of a replicate are not a power of two; `fewer` or `more` base samples would be.
     #[error(
         "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
          base_samples = {fewer} or {more} would be better"
     )]
-    Unbalanced {
-        /// Base points of a replicate.
-        points: u64,
-        /// The next smaller good number of base samples.
-        fewer: u64,
-        /// The next larger one.
-        more: u64,
-    },
+    Unbalanced { points: u64, fewer: u64, more: u64 },
     /// One replicate, and intervals from the spread of replicates.
     #[error("one replicate gives no estimate of its error: no intervals")]
     SingleReplicate,
@@ -70,39 +46,22 @@ pub enum Warning {
          safer)"
     )]
     SingleNet,
-    /// The model raised a flag that warns.
+    /// The model raised a flag that warns, in `runs` runs.
     #[error("{flag} ({}): {description}", if *runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") })]
-    ModelFlag {
-        /// The flag.
-        flag: String,
-        /// What it means.
-        description: String,
-        /// Runs that raised it.
-        runs: u64,
-    },
-    /// A few rows dominate the variance.
+    ModelFlag { flag: String, description: String, runs: u64 },
+    /// A few rows dominate the variance: `rows` would have it if all other values of A and B had no effect.
     #[error(
         "few rows determine the variance, as if {rows:.0} of the {values} of A and B did (excess kurtosis {kurtosis:.0}): rows \
          with values as large may be missing from the sample, so intervals are longer above the estimates than below and may still \
          be too short; use more base samples, or the logarithm of the output"
     )]
-    FewRows {
-        /// Number of rows that would have this variance if all others had no effect.
-        rows: f64,
-        /// Rows A and B.
-        values: u64,
-        /// Excess kurtosis of the values.
-        kurtosis: f64,
-    },
-    /// The output is large compared with its variation.
+    FewRows { rows: f64, values: u64, kurtosis: f64 },
+    /// The output is large compared with its variation; `error` is that of the indices.
     #[error(
         "the output is so much larger than its variation that doubles keep few digits of the variation: indices may be off by about \
          {error:.1e}; subtract a constant from it before it is rounded"
     )]
-    FewDigits {
-        /// Error of the indices.
-        error: f64,
-    },
+    FewDigits { error: f64 },
     /// Intervals do not exist.
     #[error(
         "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so \
@@ -121,17 +80,12 @@ pub enum Warning {
          likely: the intervals contain both"
     )]
     DoubtedSurrogate,
-    /// Corrected indices contradict plain ones, which are reported.
+    /// Corrected indices contradict plain ones, which are reported; `times` is their distance relative to both errors.
     #[error(
         "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
          allow: the rows do not represent a factor, so the plain ones are reported"
     )]
-    ContradictedSurrogate {
-        /// The distance relative to both errors; `null` for infinity.
-        #[serde(deserialize_with = "or_infinity")]
-        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
-        times: f64,
-    },
+    ContradictedSurrogate { times: f64 },
     /// Surrogates claim more variance than the rows show; the plain indices are reported.
     #[error(
         "the surrogates give a factor {times:.1} times the variance that the rows show: the rows do not represent it, so \
@@ -146,17 +100,14 @@ pub enum Warning {
     /// A level of a factor is rare among the rows.
     #[error("{0}")]
     RareLevel(RareLevel),
-    /// Rows for surrogates that explain little.
+    /// Rows for surrogates that explain little of the variance; `explained` is its share.
     #[error(
         "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so plain rows, which only \
          surrogates use, help little: use all runs as base samples for this output; errors and intervals may \
          be too small here",
         (100.0 * explained).max(0.0)
     )]
-    PoorSurrogate {
-        /// Share of the variance that they explain.
-        explained: f64,
-    },
+    PoorSurrogate { explained: f64 },
     /// Discrete factors depend on others.
     #[error(
         "{}: discrete values that depend on other factors: fixing the factor means fixing the normal score behind its value, \
@@ -164,39 +115,23 @@ pub enum Warning {
          partners too small",
         factors.join(", ")
     )]
-    DependentSteps {
-        /// The factors.
-        factors: Vec<String>,
-    },
-    /// The noise has no effect.
+    DependentSteps { factors: Vec<String> },
+    /// The noise, whose seed is `factor`, has no effect.
     #[error("{factor}: no run changed with its seed: the model is not stochastic, or does not use the seed")]
-    NoNoise {
-        /// The seed.
-        factor: String,
-    },
+    NoNoise { factor: String },
     /// The noise may have the whole effect.
     #[error(
         "{factor}: all variance may be noise, so the indices of the mean over it may be far off: use more base samples, \
          or several runs of each row (repetitions)"
     )]
-    AllNoise {
-        /// The seed.
-        factor: String,
-    },
-    /// A first-order index exceeds its total index.
+    AllNoise { factor: String },
+    /// The first-order index of a factor, group or subset exceeds its total index.
     #[error(
         "{name}: the first-order index {} exceeds the total index {} beyond the error of their difference: too few samples",
         decimals(*first_order),
         decimals(*total)
     )]
-    AboveTotal {
-        /// Factor, group or subset.
-        name: String,
-        /// Its first-order index.
-        first_order: f64,
-        /// Its total index.
-        total: f64,
-    },
+    AboveTotal { name: String, first_order: f64, total: f64 },
     /// The same by the intervals of both.
     #[error(
         "{name}: the interval of the first-order index {} was above that of the total index {}, and both were extended until \
@@ -204,41 +139,20 @@ pub enum Warning {
         decimals(*first_order),
         decimals(*total)
     )]
-    Contradictory {
-        /// Factor, group or subset.
-        name: String,
-        /// Its first-order index.
-        first_order: f64,
-        /// Its total index.
-        total: f64,
-    },
-    /// Two formulas disagree.
+    Contradictory { name: String, first_order: f64, total: f64 },
+    /// Two formulas for the first-order index disagree.
     #[error(
         "{name}: two formulas for the first-order index differ by {gap:.2e}, beyond the error of their difference: too few \
          samples, or a heavy-tailed output (its logarithm may work better)"
     )]
-    FormulasDiffer {
-        /// Factor, group or subset.
-        name: String,
-        /// The difference.
-        gap: f64,
-    },
+    FormulasDiffer { name: String, gap: f64 },
     /// A requested estimator disagrees with the default one.
     #[error(
         "{name}: the {} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
          difference: one of the two is wrong for this output",
         index.name()
     )]
-    EstimatorsDiffer {
-        /// Factor, group or subset.
-        name: String,
-        /// Which of its indices.
-        index: IndexKind,
-        /// The estimator.
-        estimator: String,
-        /// The difference.
-        gap: f64,
-    },
+    EstimatorsDiffer { name: String, index: IndexKind, estimator: String, gap: f64 },
     /// First-order indices that may sum to 0.
     #[error(
         "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; shares \
@@ -247,27 +161,16 @@ pub enum Warning {
     NoFirstOrder,
     /// First-order indices sum to more than 1.
     #[error("the first-order indices sum to {sum:.4}, beyond 1 by more than their error: too few samples")]
-    FirstOrderAboveOne {
-        /// Their sum.
-        sum: f64,
-    },
+    FirstOrderAboveOne { sum: f64 },
     /// Total indices below 1.
     #[error("the total indices sum to {sum:.4}, below 1 by more than their error: too few samples")]
-    TotalsBelowOne {
-        /// Their sum.
-        sum: f64,
-    },
+    TotalsBelowOne { sum: f64 },
     /// A total index above 1.
     #[error(
         "{name}: the total index {total:.4} is above 1 by more than its error: too few samples, or rows in the wrong \
          order"
     )]
-    TotalAboveOne {
-        /// Factor, group or subset.
-        name: String,
-        /// Its total index.
-        total: f64,
-    },
+    TotalAboveOne { name: String, total: f64 },
     /// Rows of a table that may be in the wrong order.
     #[error(
         "every total index is near 1 and every first-order index near 0, as if the rows were not in the order of the \
@@ -280,22 +183,13 @@ pub enum Warning {
     /// The same in a table of outputs; `first` is the index of the row.
     #[error("{}", .0.in_table())]
     UnlikelyInTable(Unlikely),
-    /// Repeated rows gave different outputs.
+    /// Repeated rows gave different outputs; `has_noise` is whether the model gets a seed with every row.
     #[error(
         "{differing} of {rows} {} run again gave other outputs: {} (docs/stochastic-models.md)",
         if *rows == 1 { "row that was" } else { "rows that were" },
         cause.explanation(*has_noise)
     )]
-    Irreproducible {
-        /// Number of rows with a different output.
-        differing: u64,
-        /// Number of repeated rows.
-        rows: u64,
-        /// The cause.
-        cause: Irreproducible,
-        /// Whether the model gets a seed with every row.
-        has_noise: bool,
-    },
+    Irreproducible { differing: u64, rows: u64, cause: Irreproducible, has_noise: bool },
 }
 
 named! {

@@ -33,28 +33,17 @@ pub enum ReadProblem {
     /// It is not JSON, or not this JSON; line and column are in the message.
     #[error("not a result of `apportion run`: {0}")]
     Malformed(#[from] serde_json::Error),
-    /// It is JSON of another kind.
+    /// It is JSON of another kind, which it states as its format.
     #[error(
         "not a result of `apportion run`: its \"format\" is {found:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
     )]
-    Format {
-        /// The format that it states.
-        found: String,
-    },
+    Format { found: String },
     /// It comes from a later version of the program.
     #[error("format version {found} is unknown: this program reads version {VERSION}")]
-    Version {
-        /// The version that it states.
-        found: u32,
-    },
-    /// It is inconsistent.
+    Version { found: u32 },
+    /// It is inconsistent at `key`, such as `outputs[0].scatter`.
     #[error("`{key}`: {problem}")]
-    Incoherent {
-        /// The place in the file, as in `outputs[0].scatter`.
-        key: String,
-        /// The inconsistency.
-        problem: String,
-    },
+    Incoherent { key: String, problem: String },
 }
 
 /// The header of every file of this program.
