@@ -143,7 +143,7 @@ fn effect_of<'a>(indices: &'a mut OutputIndices, members: &[Group], number: usiz
     indices.factors.get_mut(place)
 }
 
-/// Returns the parts of the distribution of a factor that may each have an effect of their own.
+/// Returns the parts of the distribution of a factor that may each have a separate effect.
 fn parts(factor: usize, law: &Distribution) -> Vec<Part> {
     let mut parts = Vec::new();
     if let Distribution::Histogram(histogram) = law {

@@ -13,7 +13,7 @@ const FACTORS: usize = 6;
 const POINTS: usize = 400;
 /// Slices of equal probability of a continuous factor.
 const SLICES: usize = 20;
-/// Maximum number of values of a discrete factor that are slices of their own.
+/// Maximum number of values of a discrete factor that get a slice each.
 const MAX_VALUES: usize = 50;
 /// Maximum number of base points for the means, over all replicates.
 const MAX_ROWS: u64 = 1 << 14;
@@ -72,55 +72,36 @@ fn largest(indices: &[IndexRecord]) -> Vec<usize> {
     order
 }
 
-/// The slices of the values of a factor: of equal probability, or one for each value.
-struct Slices<'a> {
-    distribution: &'a Distribution,
-    /// The medians of the slices.
-    middles: Vec<f64>,
-    is_by_value: bool,
-}
-
-impl<'a> Slices<'a> {
-    fn new(distribution: &'a Distribution) -> Self {
-        let values: Vec<f64> = match distribution {
-            Distribution::Constant(_) => vec![distribution.median()],
-            other => other.levels().unwrap_or_default().into_iter().map(|(value, _)| value).collect(),
-        };
-        let is_by_value = (1..=MAX_VALUES).contains(&values.len());
-        let middles = match is_by_value {
-            true => values,
-            false => (0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect(),
-        };
-        Self { distribution, middles, is_by_value }
-    }
-
-    /// Returns the slice of a point of the unit interval.
-    fn number(&self, u: f64) -> usize {
-        let number = if self.is_by_value {
-            let value = self.distribution.quantile(u);
-            self.middles.partition_point(|v| *v < value)
-        } else {
-            (u * SLICES as f64) as usize
-        };
-        number.min(self.middles.len() - 1)
-    }
-}
-
-/// Computes means over slices; `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
-fn means_over_slices(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
-    let slices = Slices::new(factor.distribution());
-    let mut values = vec![Vec::new(); slices.middles.len()];
-    for (u, y) in rows {
-        values[slices.number(*u)].push(*y);
-    }
-    let mut record = ConditionalMeansRecord {
-        factor: factor.name.clone(),
-        x: slices.middles,
-        mean: Vec::new(),
-        low: Vec::new(),
-        high: Vec::new(),
+/// Returns the values of a discrete factor, if they are so few that each gets a slice.
+fn values_of_slices(distribution: &Distribution) -> Option<Vec<f64>> {
+    let values: Vec<f64> = match distribution {
+        Distribution::Constant(_) => vec![distribution.median()],
+        other => other.levels()?.into_iter().map(|(value, _)| value).collect(),
     };
-    for values in &values {
+    (1..=MAX_VALUES).contains(&values.len()).then_some(values)
+}
+
+/// Computes means over slices of equal probability, or over one for each value; `rows` are (coordinate, output times
+/// 2^-exponent), for outputs with a value.
+fn means_over_slices(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
+    let distribution = factor.distribution();
+    let by_value = values_of_slices(distribution);
+    let mut slices = vec![Vec::new(); by_value.as_ref().map_or(SLICES, Vec::len)];
+    let last = slices.len() - 1;
+    for &(u, y) in rows {
+        let slice = match &by_value {
+            Some(values) => {
+                let value = distribution.quantile(u);
+                values.partition_point(|v| *v < value)
+            }
+            None => (u * SLICES as f64) as usize,
+        };
+        slices[slice.min(last)].push(y);
+    }
+    let medians = (0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64));
+    let x = by_value.unwrap_or_else(|| medians.collect());
+    let mut record = ConditionalMeansRecord { factor: factor.name.clone(), x, ..ConditionalMeansRecord::default() };
+    for values in &slices {
         let (n, mean) = (values.len() as f64, mean(values));
         let half = QUANTILE * (centred_product((values, mean), (values, mean)) / (n - 1.0) / n).sqrt();
         let [mean, low, high] = [mean, mean - half, mean + half].map(|y| unit.from_si(libm::scalbn(y, exponent)));

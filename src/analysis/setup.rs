@@ -10,7 +10,7 @@ use crate::study::Study;
 /// Returns the study as it was run.
 pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
-        asked: study_record(study),
+        study: study_record(study),
         factors: study.space.factors().iter().map(|factor| factor_record(study, factor)).collect(),
         sha256: study.source.sha256.clone(),
     }
@@ -43,12 +43,8 @@ pub(super) fn factor_record(study: &Study, factor: &Factor) -> FactorRecord {
 
 fn factor_distribution(distribution: &Distribution) -> FactorDistribution {
     let parameters = distribution.parameters().into_iter();
-    FactorDistribution {
-        name: distribution.name().to_owned(),
-        parameters: parameters
-            .map(|(name, value)| (name.to_owned(), serde_json::to_value(value).unwrap_or_default()))
-            .collect(),
-    }
+    let json = parameters.map(|(name, value)| (name.to_owned(), serde_json::to_value(value).unwrap_or_default()));
+    FactorDistribution { name: distribution.name().to_owned(), parameters: json.collect() }
 }
 
 /// Returns the record of a dependence.

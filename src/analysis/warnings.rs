@@ -53,9 +53,9 @@ fn fails_jointly(warning: &Warning) -> bool {
 }
 
 /// Returns warnings raised by the model.
-pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<Warning> {
+pub(super) fn of_flags(model: &dyn Model, totals: &Totals) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    for (flag, &runs) in model.flags().iter().zip(&whole.flags) {
+    for (flag, &runs) in model.flags().iter().zip(&totals.flags) {
         if flag.warns && runs > 0 {
             let (flag, description) = (flag.name.to_string(), flag.description.to_string());
             warnings.push(Warning::ModelFlag { flag, description, runs });

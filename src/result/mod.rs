@@ -67,7 +67,7 @@ pub struct StudyResult {
     pub study: StudyRecord,
     /// How the result was computed.
     pub provenance: Provenance,
-    /// What has indices of its own in the outputs.
+    /// What has indices in the outputs: the factors, or the groups in place of their factors.
     pub indices_of: IndicesOf,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
@@ -94,13 +94,10 @@ impl StudyResult {
     pub fn indexed_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for factor in &self.factors {
-            match &factor.group {
-                Some(group) if self.indices_of == IndicesOf::Groups => {
-                    if !names.contains(&group.as_str()) {
-                        names.push(group);
-                    }
-                }
-                _ => names.push(&factor.name),
+            let group = factor.group.as_ref().filter(|_| self.indices_of == IndicesOf::Groups);
+            let name = group.unwrap_or(&factor.name);
+            if group.is_none() || !names.contains(&name.as_str()) {
+                names.push(name);
             }
         }
         names
@@ -190,7 +187,7 @@ pub struct Provenance {
     pub base_samples: u64,
     /// Independent randomisations that share them.
     pub replicates: u64,
-    /// Runs of each base point at points of their own, used only to fit surrogates.
+    /// Runs of each base point at separate points, used only to fit surrogates.
     pub plain_rows: u32,
     /// Runs of the model.
     pub model_runs: u64,

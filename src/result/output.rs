@@ -34,7 +34,7 @@ pub struct OutputResult {
     pub runs_ok: u64,
     /// Runs without a value.
     pub runs_failed: u64,
-    /// Minimum number of base points of any estimate: each uses those at which its own runs have a value.
+    /// Minimum number of base points of any estimate: each uses those at which its runs have a value.
     pub base_points_used: u64,
     /// Why runs failed.
     pub failures: Vec<FailureCount>,
@@ -169,7 +169,7 @@ pub struct ScatterRecord {
 
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConditionalMeansRecord {
     /// The factor.

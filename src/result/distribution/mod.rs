@@ -50,7 +50,7 @@ pub struct QuantileRecord {
 /// It covers the range from the smallest to the largest value, but at most 6 interquartile ranges beyond the quartiles:
 /// otherwise a few far values would leave all others in one bin. They are counted in `below` and `above`. The width is
 /// that of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or if the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and
-/// at least a hundredth of the whole.
+/// at least a hundredth of that range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Histogram {

@@ -35,12 +35,12 @@ pub enum ReadProblem {
     Malformed(#[from] serde_json::Error),
     /// It is JSON of another kind, which it states as its format.
     #[error(
-        "not a result of `apportion run`: its \"format\" is {found:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
+        "not a result of `apportion run`: its \"format\" is {stated:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
     )]
-    Format { found: String },
+    Format { stated: String },
     /// It comes from a later version of the program.
-    #[error("format version {found} is unknown: this program reads version {VERSION}")]
-    Version { found: u32 },
+    #[error("format version {stated} is unknown: this program reads version {VERSION}")]
+    Version { stated: u32 },
     /// It is inconsistent at `key`, such as `outputs[0].scatter`.
     #[error("`{key}`: {problem}")]
     Incoherent { key: String, problem: String },
@@ -83,10 +83,10 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
 pub fn parse_result(json: &[u8]) -> Result<StudyResult, ReadProblem> {
     let Header { format, version } = serde_json::from_slice(json)?;
     if format != FORMAT {
-        return Err(ReadProblem::Format { found: format });
+        return Err(ReadProblem::Format { stated: format });
     }
     if version != VERSION {
-        return Err(ReadProblem::Version { found: version });
+        return Err(ReadProblem::Version { stated: version });
     }
     let result = serde_json::from_slice(json)?;
     let counts = coherence::counts(&serde_json::from_slice(json)?, "");
