@@ -178,10 +178,10 @@ pub enum Warning {
     )]
     Shuffled,
     /// An output of the runs that may be a code for a missing one; `first` is the index of the run.
-    #[error("{}", .0.in_runs())]
+    #[error("{}", .0.in_runs(.0.first + 1))]
     UnlikelyValue(Unlikely),
     /// The same in a table of outputs; `first` is the index of the row.
-    #[error("{}", .0.in_table())]
+    #[error("{}", .0.in_table(.0.first + 1))]
     UnlikelyInTable(Unlikely),
     /// Repeated rows gave different outputs; `has_noise` is whether the model gets a seed with every row.
     #[error(

@@ -173,7 +173,7 @@ pub fn screen(
     let outputs = job.model.outputs().iter().enumerate().map(|(number, output)| {
         let screened = screened(output, number, &outcome, factors, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
-        let unlikely = Unlikely::find(&values).map(|found| found.in_runs());
+        let unlikely = Unlikely::find(&values).map(|found| found.in_runs(found.first + 1));
         ScreenedOutput {
             name: output.name.to_string(),
             unit: output.unit.to_string(),

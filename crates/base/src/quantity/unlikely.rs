@@ -71,22 +71,21 @@ impl Unlikely {
         })
     }
 
-    /// Describes it in the rows of a table.
-    pub fn in_table(&self) -> String {
-        format!("{}, read it as one", self.words("row"))
+    /// Describes it in a table; `row` is the row of its first occurrence, from 1.
+    pub fn in_table(&self, row: usize) -> String {
+        format!("{}, read it as one", self.words("row", row))
     }
 
-    /// Describes it in runs.
-    pub fn in_runs(&self) -> String {
-        format!("{}, let the model report a failed run there", self.words("run"))
+    /// Describes it in runs; `run` is the number of the run of its first occurrence, from 1.
+    pub fn in_runs(&self, run: usize) -> String {
+        format!("{}, let the model report a failed run there", self.words("run", run))
     }
 
-    fn words(&self, what: &str) -> String {
-        let Self { value, count, first, of, others: (low, high) } = self;
+    fn words(&self, what: &str, first: usize) -> String {
+        let Self { value, count, of, others: (low, high), .. } = self;
         format!(
-            "the value {value:?} occurs in {count} of {of} {what}s (the first is {what} {}), and all others lie between \
-             {low:?} and {high:?}: if it marks a missing value",
-            first + 1
+            "the value {value:?} occurs in {count} of {of} {what}s (the first is {what} {first}), and all others lie between \
+             {low:?} and {high:?}: if it marks a missing value"
         )
     }
 }
