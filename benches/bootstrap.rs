@@ -3,11 +3,13 @@
 //! Everything that an output's indices take once its runs are over: estimates, resamples or influences, intervals and
 //! probabilities. A second group shows how the bootstrap grows with the number of points.
 
+use apportion::analysis::{IntervalOptions, output_indices};
 use apportion::design::Design;
+use apportion::effect::Layout;
 use apportion::estimate::{MomentParts, PointOutputs};
 use apportion::model::RunContext;
 use apportion::run::{GrowingRun, Job, Totals};
-use apportion::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, Layout, output_indices};
+use apportion::uncertainty::{IntervalMethod, KeptPoints};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// The random design of `base_samples`, and its run through Sobol' G with the outputs kept.

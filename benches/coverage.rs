@@ -15,10 +15,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use apportion::analysis::{IntervalOptions, output_indices};
+use apportion::effect::Layout;
 use apportion::estimate::MomentParts;
 use apportion::model::KnownAnswer;
 use apportion::run::{Job, run};
-use apportion::uncertainty::{IntervalMethod, IntervalOptions, Layout, output_indices};
+use apportion::uncertainty::IntervalMethod;
 
 const SEEDS: u64 = 100;
 const SIZES: std::ops::RangeInclusive<u32> = 8..=14;
@@ -217,8 +219,8 @@ fn sample(
         };
         let layout = Layout::plain(case.first.len());
         let Ok(indices) = output_indices(&parts, &layout, &options) else { return Vec::new() };
-        let factors = indices.factors.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
-        let both = factors.flat_map(|(effect, _)| [effect.first_order, effect.total]);
+        let factors = indices.effects.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
+        let both = factors.flat_map(|(of, _)| [of.estimates.first_order, of.estimates.total]);
         both.map(|e| [e.estimate, e.interval.map_or(f64::NAN, |i| i.low), e.interval.map_or(f64::NAN, |i| i.high)])
             .collect()
     };

@@ -54,7 +54,9 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod analysis;
+pub mod correction;
 pub mod design;
+pub mod effect;
 pub mod estimate;
 pub mod given;
 pub mod model;

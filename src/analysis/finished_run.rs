@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use crate::correction::SurrogateEstimates;
 use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::model::Model;
@@ -9,7 +10,6 @@ use crate::run::{Place, Totals};
 use crate::space::Space;
 use crate::study::Study;
 use crate::surrogate::low_fidelity::OwnOutputs;
-use crate::uncertainty::SurrogateEstimates;
 
 /// A finished run of a study.
 #[derive(Clone, Copy)]
@@ -50,18 +50,6 @@ pub(crate) struct LowTotals<'a> {
 /// Returns output number `number` of every run of each replicate.
 pub(crate) fn outputs_kept(replicates: &[Totals], number: usize) -> Vec<&PointOutputs> {
     replicates.iter().map(|totals| &totals.outputs[number].point_outputs).collect()
-}
-
-/// Returns the names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
-pub fn names_of_swaps(study: &Study) -> Vec<String> {
-    let factors = study.space.factors();
-    let subset = |numbers: &Vec<usize>| {
-        numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
-    };
-    let (members, groups) = (study.analysis.members(&study.space), study.analysis.further_groups(&study.space));
-    let names = members.into_iter().chain(groups).map(|member| member.name);
-    let names = names.chain(study.analysis.subsets.iter().map(subset));
-    names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
 }
 
 /// Returns the values of the factors of `space` by name: numbers in their units, or the labels of categories.

@@ -1,15 +1,18 @@
 //! Analysis of a finished run: indices with intervals, counts, reasons and warnings from the merged sums.
 
+mod aggregate;
 mod finished_run;
 mod first_rows;
 mod indices;
 mod measures;
 mod output;
+mod output_indices;
 mod rare_levels;
 mod result;
 mod scatter;
 mod series;
 mod setup;
+mod stages;
 mod surrogates;
 mod unlikely;
 mod warnings;
@@ -17,6 +20,7 @@ mod warnings;
 pub use finished_run::inputs_in_words;
 pub(crate) use finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept};
 pub use measures::MAX_ROWS_OF_MEASURES;
+pub use output_indices::{EffectIndices, IntervalOptions, OutputIndices, output_indices};
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
 pub use setup::{study_setup, validity};

@@ -7,8 +7,10 @@ use super::finished_run::{FinishedRun, named_inputs, outputs_kept, row_inputs};
 use super::first_rows::FirstRows;
 use super::indices::{add_indices, stage_record};
 use super::measures::MeasuredRows;
+use super::output_indices::{IntervalOptions, output_indices, output_moments};
 use super::rare_levels::withdraw;
 use super::scatter::scatter_record;
+use super::stages::stages;
 use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
@@ -16,9 +18,7 @@ use crate::model::{Output, RowFailure};
 use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
-use crate::uncertainty::{
-    Estimate, IntervalOptions, KeptPoints, OutputMoments, output_indices, output_moments, stages,
-};
+use crate::uncertainty::{Estimate, KeptPoints, OutputMoments};
 use apportion_base::quantity::Unit;
 
 /// Why an output has no indices.
@@ -78,7 +78,7 @@ pub(super) fn output_result(
     warnings.extend(warnings::of_flags(run.model, whole));
     warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
     if let Ok(indices) = &mut indices {
-        withdraw(indices, &corrected.rare, &study.analysis.members(&study.space));
+        withdraw(indices, &corrected.rare, &study.effects());
         warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));

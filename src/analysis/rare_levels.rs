@@ -1,9 +1,11 @@
 //! Levels of factors that are rare or absent in the rows of a design: results silently miss their effect.
 
+use super::output_indices::OutputIndices;
 use crate::design::Design;
 use crate::result::{PAIRS_OF_POINT, RareLevel};
-use crate::space::{Distribution, Group, Space};
-use crate::uncertainty::{EffectEstimates, Interval, OutputIndices};
+use crate::space::{Distribution, Space};
+use crate::study::StudyEffect;
+use crate::uncertainty::{EffectEstimates, Interval};
 
 /// Expected number of joint draws of two rare levels for their joint effect to be seen: one of 150 designs has none.
 const MIN_MEETINGS: f64 = 5.0;
@@ -115,14 +117,14 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 
 /// Removes results from `indices` that are not valid without the levels: probabilities, and that a factor with a single
 /// value in all rows has no effect.
-pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], members: &[Group]) {
+pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], effects: &[StudyEffect]) {
     for level in rare {
         for number in level.partner.into_iter().chain([level.number]) {
-            if let Some(effect) = effect_of(indices, members, number) {
-                effect.probability_above_threshold = None;
+            if let Some(estimates) = estimates_of(indices, effects, number) {
+                estimates.probability_above_threshold = None;
             }
         }
-        let Some(effect) = effect_of(indices, members, level.number) else { continue };
+        let Some(effect) = estimates_of(indices, effects, level.number) else { continue };
         if level.partner.is_none() && level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
             (effect.first_order.interval, effect.total.interval) = (anything, anything);
@@ -131,16 +133,20 @@ pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], members:
         }
     }
     if !rare.is_empty() {
-        for effect in &mut indices.factors {
-            effect.probability_first = None;
+        for of in &mut indices.effects {
+            of.estimates.probability_first = None;
         }
     }
 }
 
 /// Returns the indices of the factor of that number, or of its group.
-fn effect_of<'a>(indices: &'a mut OutputIndices, members: &[Group], number: usize) -> Option<&'a mut EffectEstimates> {
-    let place = members.iter().position(|member| member.factors.contains(&number))?;
-    indices.factors.get_mut(place)
+fn estimates_of<'a>(
+    indices: &'a mut OutputIndices,
+    effects: &[StudyEffect],
+    number: usize,
+) -> Option<&'a mut EffectEstimates> {
+    let place = effects.iter().position(|of| of.factors.contains(&number))?;
+    indices.effects.get_mut(place).map(|of| &mut of.estimates)
 }
 
 /// Returns the parts of the distribution of a factor that may each have a separate effect.

@@ -8,9 +8,10 @@ use super::finished_run::{FinishedRun, LowTotals};
 use super::measures::MeasuredRows;
 use super::output::{OutputRows, output_result};
 use super::scatter::rows_of_scatter;
-use super::series::{series, single_outputs, together, together_record, together_records};
+use super::series::{series, single_outputs, together, together_records};
 use super::setup::{factor_record, study_record, validity};
 use super::surrogates::Corrections;
+use crate::effect::Effect;
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, MIN_OUTPUTS_TOGETHER, Model, RUNGS};
 use crate::result::{
@@ -123,12 +124,8 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     Some(AggregateRecord {
         outputs: names,
         weighting,
-        indices: indices.as_ref().ok().map(|all| together_records(study, all)),
-        noise: study
-            .space
-            .noise()
-            .zip(indices.as_ref().ok())
-            .map(|(noise, all)| together_record(study.space.factors()[noise].name.clone(), all, noise)),
+        indices: indices.as_ref().ok().map(|all| together_records(study, all, Effect::is_factor)),
+        noise: indices.as_ref().ok().and_then(|all| together_records(study, all, |of| of == Effect::Noise).pop()),
         reason: indices.err().map(|undefined| undefined.to_string()),
     })
 }

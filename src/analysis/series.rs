@@ -1,12 +1,14 @@
 //! Outputs that are a series: one set of indices for all of its values.
 
+use super::aggregate::{AggregateIndices, aggregate_indices};
 use super::finished_run::FinishedRun;
+use crate::correction::SurrogateEstimates;
+use crate::effect::Effect;
 use crate::estimate::{MomentParts, Scaling, Undefined};
 use crate::model::{Model, OutputSeries};
 use crate::result::{PlainIndexRecord, SeriesRecord};
 use crate::run::Totals;
 use crate::study::Study;
-use crate::uncertainty::{AggregateIndices, SurrogateEstimates, aggregate_indices};
 
 /// Returns the results for every series of the model; `whole` holds the counts over all replicates, `surrogates` the
 /// surrogate estimates of every output.
@@ -31,7 +33,7 @@ pub(super) fn series(
             axis_unit: series.axis.unit().to_owned(),
             first_output: series.first,
             positions: series.axis.positions().to_vec(),
-            indices: all.as_ref().ok().map(|all| together_records(run.study, all)),
+            indices: all.as_ref().ok().map(|all| together_records(run.study, all, Effect::is_factor)),
             reason: all.err().map(|undefined| undefined.to_string()),
         }
     };
@@ -46,21 +48,19 @@ pub(super) fn together(
 ) -> Result<AggregateIndices, Undefined> {
     let of_output = |place: usize| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
     let parts: Vec<Vec<&MomentParts>> = places.map(of_output).collect();
-    let parts: Vec<&[&MomentParts]> = parts.iter().map(Vec::as_slice).collect();
-    let indices = aggregate_indices(&parts, scaling, run.study.analysis.intervals);
-    indices.map(|indices| indices.of_effects(&run.study.layout()))
+    aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)
 }
 
-/// Returns the indices over several outputs together, of every factor but a noise.
-pub(super) fn together_records(study: &Study, all: &AggregateIndices) -> Vec<PlainIndexRecord> {
-    let members = study.analysis.members(&study.space).into_iter().enumerate();
-    let known = members.filter(|(place, _)| Some(*place) != study.space.noise());
-    known.map(|(place, member)| together_record(member.name, all, place)).collect()
-}
-
-/// Returns those of `factor` at `place`.
-pub(super) fn together_record(factor: String, all: &AggregateIndices, place: usize) -> PlainIndexRecord {
-    PlainIndexRecord { factor, first_order: all.first_order[place], total: all.total[place] }
+/// Returns the indices over several outputs together of the effects that are wanted.
+pub(super) fn together_records(
+    study: &Study,
+    all: &AggregateIndices,
+    is_wanted: fn(Effect) -> bool,
+) -> Vec<PlainIndexRecord> {
+    let effects = study.effects().into_iter().zip(&all.indices).filter(|(effect, _)| is_wanted(effect.effect));
+    effects
+        .map(|(effect, of)| PlainIndexRecord { factor: effect.name, first_order: of.first_order, total: of.total })
+        .collect()
 }
 
 /// Returns the places of the outputs that belong to no series.

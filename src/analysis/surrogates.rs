@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::finished_run::{FinishedRun, LowTotals, outputs_kept};
+use super::output_indices::{IntervalOptions, output_indices};
 use super::rare_levels::rare_levels;
+use super::stages::points_of_stages;
+use crate::correction::SurrogateEstimates;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs};
 use crate::result::{RareLevel, SurrogateTrial};
@@ -11,7 +14,6 @@ use crate::run::Totals;
 use crate::study::{Study, SurrogateChoice};
 use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
-use crate::uncertainty::{IntervalOptions, SurrogateEstimates, output_indices, points_of_stages};
 
 /// Number of rows on which surrogates of a fast model are tried.
 const TRIAL_ROWS: u64 = 1 << 13;

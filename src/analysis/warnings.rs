@@ -1,14 +1,15 @@
 //! Warnings about the runs and the results of an output.
 
-use super::finished_run::{FinishedRun, names_of_swaps};
+use super::finished_run::FinishedRun;
+use super::output_indices::{EffectIndices, OutputIndices};
+use crate::correction::Refusal;
+use crate::effect::Effect;
 use crate::estimate::{CentralMoments, Moments};
 use crate::model::Model;
 use crate::result::{IndexKind, Warning};
 use crate::run::Totals;
-use crate::study::Study;
-use crate::uncertainty::{
-    EffectChecks, Interval, IntervalMethod, NoiseIndices, OutputIndices, Refusal, differs_clearly,
-};
+use crate::study::{Study, StudyEffect};
+use crate::uncertainty::{EffectChecks, Estimate, Interval, IntervalMethod, differs_clearly};
 
 /// Returns warnings about the runs of an output.
 ///
@@ -108,7 +109,7 @@ const MIN_INDEX: f64 = 1e-6;
 pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let alone = study.design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Replicates;
-    if !alone && indices.factors.iter().all(|effect| effect.total.interval.is_none()) {
+    if !alone && indices.inputs().all(|of| of.estimates.total.interval.is_none()) {
         warnings.push(Warning::NoIntervals);
     }
     if let Some(used) = &indices.surrogate {
@@ -125,8 +126,12 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
     let is_corrected = (indices.surrogate.as_ref())
         .is_some_and(|used| used.corrects_first_order && !used.is_doubted && !used.is_heavy_tailed);
     warnings.extend(of_dependent_steps(study));
-    warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
-    for ((name, effect), checks) in names_of_swaps(study).iter().zip(indices.effects()).zip(&indices.checks) {
+    let effects = study.effects();
+    let noise = effects.iter().zip(&indices.effects).find(|(effect, _)| effect.effect == Effect::Noise);
+    warnings.extend(noise.and_then(|(effect, of)| of_noise(&effect.name, of, indices.mean_share)));
+    for (StudyEffect { name, .. }, EffectIndices { estimates: effect, checks, .. }) in
+        effects.iter().zip(&indices.effects)
+    {
         let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;
         let (name, first_order) = (name.clone(), effect.first_order.estimate);
         let is_visible = first_order.abs().max(total.abs()) >= MIN_INDEX;
@@ -145,13 +150,14 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
     if study.space.copula().is_some() {
         return warnings;
     }
-    let (first_order, total) = (indices.sum_first_order, indices.sum_total);
+    let (first_order, total) = (indices.sums.first_order, indices.sums.total);
     if first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
         warnings.push(Warning::NoFirstOrder);
     }
-    for (name, effect) in names_of_swaps(study).into_iter().zip(indices.effects()) {
-        if effect.total.interval.is_some_and(|interval| interval.low > 1.0) {
-            warnings.push(Warning::TotalAboveOne { name, total: effect.total.estimate });
+    for (StudyEffect { name, .. }, of) in effects.into_iter().zip(&indices.effects) {
+        let total = of.estimates.total;
+        if total.interval.is_some_and(|interval| interval.low > 1.0) {
+            warnings.push(Warning::TotalAboveOne { name, total: total.estimate });
         }
     }
     // If this program runs the model, its rows are in order.
@@ -168,13 +174,12 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
 }
 
 /// Returns a warning of a noise that has no effect, or the whole effect.
-fn of_noise(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> Option<Warning> {
-    let (name, total) = (&study.space.factors()[noise.factor].name, indices.factors[noise.factor].total);
-    let factor = name.clone();
+fn of_noise(name: &str, noise: &EffectIndices, mean_share: Option<Estimate>) -> Option<Warning> {
+    let (factor, total) = (name.to_owned(), noise.estimates.total);
     if total.estimate == 0.0 && total.interval.is_none_or(|Interval { low, high }| low == 0.0 && high == 0.0) {
         return Some(Warning::NoNoise { factor });
     }
-    noise.mean_share.interval.is_some_and(|share| share.low <= 0.0).then_some(Warning::AllNoise { factor })
+    mean_share?.interval.is_some_and(|share| share.low <= 0.0).then_some(Warning::AllNoise { factor })
 }
 
 /// Returns warnings of requested estimators whose indices differ from the default ones by more than chance.
@@ -194,11 +199,10 @@ fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warnin
 /// Returns whether the rows A, B and AB of a base point look independent: first-order indices near 0, totals near 1.
 fn looks_shuffled(indices: &OutputIndices) -> bool {
     const NEAR: f64 = 0.15;
-    indices.factors.len() > 1
-        && indices
-            .factors
-            .iter()
-            .all(|effect| (effect.total.estimate - 1.0).abs() < NEAR && effect.first_order.estimate.abs() < NEAR)
+    indices.inputs().count() > 1
+        && indices.inputs().all(|EffectIndices { estimates: of, .. }| {
+            (of.total.estimate - 1.0).abs() < NEAR && of.first_order.estimate.abs() < NEAR
+        })
 }
 
 /// Error of indices by rounding of the outputs above which a result has a warning.

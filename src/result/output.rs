@@ -103,8 +103,7 @@ impl OutputResult {
         let groups = self.groups.iter().flatten().map(|group| &group.effect);
         let subsets = self.subsets.iter().flatten().map(|subset| &subset.effect);
         let effects = factors.chain(noise).chain(groups).chain(subsets);
-        let estimates = effects.flat_map(|of| [Some(of.first_order), Some(of.total), of.shapley]);
-        largest_half_width(estimates.flatten())
+        largest_half_width(effects.flat_map(EffectEstimates::indices))
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {

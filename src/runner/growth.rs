@@ -2,13 +2,16 @@
 
 use super::Runner;
 use super::low_fidelity::LowRun;
-use crate::analysis::{enough_base_samples, interval_options, rare_levels, surrogates};
+use crate::analysis::{
+    IntervalOptions, enough_base_samples, interval_options, output_indices, rare_levels, surrogates,
+};
+use crate::correction::SurrogateEstimates;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
 use crate::result::StopReason;
 use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
-use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
+use crate::uncertainty::{IntervalMethod, KeptPoints};
 use apportion_base::clock::Instant;
 
 /// Base samples below which missing intervals predict nothing about those of more runs: an output that is 0 except
@@ -130,13 +133,16 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
         let points = KeptPoints::all(&design, &kept);
         let options = IntervalOptions { points, correlations, surrogate, ranks: false, ..options };
         let found = output_indices(&parts, &layout, &options);
-        if let Some(used) = found.as_ref().ok().and_then(|indices| indices.surrogate.as_ref()) {
-            all.is_checked &= used.plain_half_width().is_some_and(|half| half <= MAX_PLAIN_HALF_WIDTH);
+        if let Some(indices) = found.as_ref().ok().filter(|indices| indices.surrogate.is_some()) {
+            all.is_checked &= indices.plain_half_width().is_some_and(|half| half <= MAX_PLAIN_HALF_WIDTH);
         }
         match found.map(|indices| indices.largest_half_width()) {
             Ok(Some(widest)) if all.widest.is_none_or(|before| widest > before) => {
                 all.widest = Some(widest);
-                all.squared_errors = surrogate.map_or([1.0, 0.0], |surrogate| surrogate.squared_errors());
+                all.squared_errors = surrogate.map_or([1.0, 0.0], |surrogate| {
+                    let shares = surrogate.squared_errors();
+                    [shares.model, shares.low_fidelity]
+                });
             }
             Ok(Some(_)) | Err(Undefined::ZeroVariance) => (),
             Ok(None) | Err(_) => is_known = false,

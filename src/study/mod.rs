@@ -4,6 +4,8 @@
 
 mod build_error;
 mod builder;
+mod effects;
+pub(crate) use effects::StudyEffect;
 mod identity;
 mod options;
 mod rules;
@@ -19,10 +21,10 @@ use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 
 use crate::design::{Design, DesignError, DesignSettings};
+use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::fewest_points;
-use crate::uncertainty::{Layout, NoiseLayout};
 pub use apportion_base::names::nearest;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
@@ -228,10 +230,7 @@ impl Study {
     /// Returns what is estimated from the swaps of the design.
     pub fn layout(&self) -> Layout {
         Layout {
-            factors: self.analysis.members(&self.space).len(),
-            groups: self.analysis.further_groups(&self.space).len(),
-            subsets: self.analysis.subsets.len(),
-            dummy: self.analysis.dummy,
+            effects: self.effects().into_iter().map(|effect| effect.effect).collect(),
             estimators: self.analysis.estimators.clone(),
             salib: self.analysis.salib,
             second_order: self.analysis.second_order,

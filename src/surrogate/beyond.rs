@@ -12,9 +12,8 @@
 use std::collections::BTreeMap;
 
 use super::basis::{Family, Term, polynomials};
-use super::corrected::{Effects, is_interaction, touches, within};
 use super::fit::Expansion;
-use crate::uncertainty::Knot;
+use crate::correction::{Effects, Knot, is_interaction, touches, within};
 
 /// Width of the panels of the midpoint rule in ln u, and their number, down to 1e-17 of the edge.
 const STEP: f64 = 0.25;

@@ -9,7 +9,7 @@ use super::basis::{Family, polynomials};
 use super::gram::{Square, inverse, lower_factor};
 use super::net::Net;
 use super::own::rule;
-use crate::uncertainty::Knot;
+use crate::correction::Knot;
 
 /// Maximum number of knots of a factor.
 const MAX_KNOTS: usize = 4;

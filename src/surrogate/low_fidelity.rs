@@ -17,16 +17,18 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term, add_to};
-use super::corrected::{Contributions, Effects, interaction, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
     Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points,
     in_chunks, scaled, takes_surrogates,
 };
+use crate::correction::{
+    Contributions, Effects, LowFidelityUse, SurrogateEstimates, interaction, mean_power, values_and_rest,
+};
 use crate::design::Design;
+use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::uncertainty::{Layout, LowFidelityUse, SurrogateEstimates};
 
 /// One output of a low-fidelity model.
 #[derive(Clone)]

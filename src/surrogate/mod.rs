@@ -1,13 +1,12 @@
 //! Indices corrected by surrogates.
 //!
 //! A sparse polynomial chaos expansion is fitted to the runs of all nets but one, and corrects the indices of that one
-//! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
+//! ([`crate::correction`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
 //! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 pub mod basis;
 pub mod beyond;
 pub mod carried;
-pub mod corrected;
 pub mod fit;
 pub mod gram;
 pub mod knots;
@@ -19,19 +18,20 @@ mod together;
 use basis::{Caps, Family, Term, add_to};
 use beyond::Beyond;
 use carried::Carried;
-use corrected::{Contributions, Effects};
 use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows, without};
 use net::Net;
 use rayon::prelude::*;
 pub use together::surrogates_together;
 use together::{good_points, of_neighbours};
 
+use crate::correction::{
+    ChosenTerms, Contributions, Effects, EstimateWithInfluences, SurrogateEstimates, SurrogateTerm, in_parts,
+};
 use crate::design::{Design, Sampler};
+use crate::effect::{IndexPair, Layout};
 use crate::estimate::PointOutputs;
 use crate::space::Space;
-use crate::uncertainty::{
-    ChosenTerms, Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts,
-};
+use crate::uncertainty::PartInfluences;
 
 /// Minimum number of nets: the number of terms of a surrogate of the others is chosen by leaving out one of them.
 pub const MIN_NETS: usize = 3;
@@ -291,25 +291,28 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
     };
     let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>, beyond: f64| {
         let ((mean, parts), (of_low, low)) = (of_nets(nets, column), of_nets(low, column));
-        Influenced { estimate: mean + of_low, parts, low, beyond }
+        EstimateWithInfluences { estimate: mean + of_low, parts, low, beyond }
     };
     let variance = gathered(&|net| &net.variance, beyond.variance);
-    let indices = |column: &dyn Fn(&Contributions) -> &Vec<Vec<f64>>, beyond: &[f64]| -> Vec<Influenced> {
+    let indices = |column: &dyn Fn(&Contributions) -> &Vec<Vec<f64>>, beyond: &[f64]| -> Vec<EstimateWithInfluences> {
         let index = |(k, &beyond): (usize, &f64)| gathered(&|net| &column(net)[k], beyond).over(&variance);
         beyond.iter().enumerate().map(index).collect()
     };
     let first_order = indices(&|net| &net.first_order, &beyond.first_order);
-    let second_order = indices(&|net| &net.pairs, &beyond.pairs);
+    let pairs = indices(&|net| &net.pairs, &beyond.pairs);
     let forms = [0, 1].map(|form| indices(&|net| &net.total[form], &beyond.total));
     let weight = weight_of_second(&forms);
-    let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
-    let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();
-    let scaled =
-        |of: Influenced, offset: f64, scale: f64| Influenced::linear(offset + scale * of.estimate, &[(scale, &of)]);
+    let mixed = |(a, b): (&EstimateWithInfluences, &EstimateWithInfluences)| {
+        EstimateWithInfluences::combined(&[(1.0 - weight, a), (weight, b)])
+    };
+    let total = forms[0].iter().zip(&forms[1]).map(mixed);
+    let effects = first_order.into_iter().zip(total).map(|(first_order, total)| IndexPair { first_order, total });
+    let scaled = |of: EstimateWithInfluences, offset: f64, scale: f64| {
+        EstimateWithInfluences::linear(offset + scale * of.estimate, &[(scale, &of)])
+    };
     SurrogateEstimates {
-        first_order,
-        total,
-        second_order,
+        effects: effects.collect(),
+        pairs,
         mean: scaled(gathered(&|net| &net.mean, beyond.mean), mean, sd),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
@@ -326,7 +329,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
 /// Returns the largest ratio of the claimed variance to that over the rows, for all factors and those that matter.
 fn growth(nets: &[Contributions]) -> f64 {
     let claims = |place: usize| {
-        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])
+        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place].claimed, sum[1] + net.claims[place].shown])
     };
     let count = nets.iter().map(|net| net.claims.len()).min().unwrap_or(0);
     let all = count.checked_sub(1).map_or(0.0, |last| claims(last)[0]);
@@ -335,7 +338,7 @@ fn growth(nets: &[Contributions]) -> f64 {
 }
 
 /// Returns the weight of the second form of the total indices with the least spread within the nets, over all swaps.
-fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
+fn weight_of_second([first, second]: &[Vec<EstimateWithInfluences>; 2]) -> f64 {
     let (mut covariance, mut variance) = (0.0, 0.0);
     for (a, b) in first.iter().zip(second) {
         for (a, b) in a.parts.iter().chain(&a.low).zip(b.parts.iter().chain(&b.low)) {

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
-use super::corrected::{Contributions, Effects, values_and_rest};
 use super::fit::{Expansion, Expansions, Training};
 use super::knots::{Knotted, MAX_MOVED, knots};
 use super::net::Net;
@@ -15,9 +14,10 @@ use super::{
     Corrected, MAX_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_design, fitted_to_others,
     in_chunks, scaled, surrogate_estimates, takes_surrogates, trials,
 };
+use crate::correction::{ChosenTerms, Contributions, Effects, Knot, SurrogateEstimates, values_and_rest};
 use crate::design::Design;
+use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::uncertainty::{ChosenTerms, Knot, Layout, SurrogateEstimates};
 
 /// Number of outputs up to which each has its own terms: the gain is worth the time.
 const MAX_ALONE: usize = 32;

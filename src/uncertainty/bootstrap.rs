@@ -38,20 +38,17 @@ where
     let mut values = Vec::with_capacity(resamples);
     for first in (0..resamples).step_by(ROUND) {
         let round = first..(first + ROUND).min(resamples);
-        let starts: Vec<usize> = round.clone().step_by(BATCH).collect();
-        let batch = |start: &usize| Batch::new(*start..(start + BATCH).min(round.end), count, products.columns());
-        let mut batches: Vec<Batch> = starts.iter().map(batch).collect();
+        let ranges = round.clone().step_by(BATCH).map(|start| start..(start + BATCH).min(round.end));
+        let mut batches: Vec<Batch> = ranges.map(|range| Batch::new(range, count, products.columns())).collect();
         for (number, chunk) in chunks.iter().enumerate() {
             // Copied, not viewed: nalgebra 0.35 reads past the end of views with strides when a side is shorter than 6.
             let matrix = chunk.products(points.design, products).transpose();
-            let add = |work: &mut Counts, batch: &mut Batch| batch.add(&matrix, (chunk, number), &random, work);
-            batches.par_iter_mut().for_each_init(Counts::default, add);
+            batches.par_iter_mut().for_each_init(Counts::default, |work, batch| {
+                batch.add(&matrix, (chunk, number), &random, work);
+            });
         }
-        let of_batch = |batch: &Batch| -> Vec<Option<Q>> {
-            let columns = batch.sums.column_iter();
-            columns.map(|sums| quantities(&products.moments(sums.as_slice()))).collect()
-        };
-        values.extend(batches.par_iter().map(of_batch).collect::<Vec<_>>().into_iter().flatten());
+        let sums: Vec<_> = batches.iter().flat_map(|batch| batch.sums.column_iter()).collect();
+        values.par_extend(sums.par_iter().map(|sums| quantities(&products.moments(sums.as_slice()))));
     }
     values
 }

@@ -13,7 +13,7 @@ const UNDEFINED: f64 = 0.01;
 
 /// The method, and for a bootstrap its random numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ByPoints<'a> {
+pub(crate) struct ByPoints<'a> {
     pub method: IntervalMethod,
     pub points: KeptPoints<'a>,
     pub seed: u64,
@@ -21,7 +21,7 @@ pub(super) struct ByPoints<'a> {
 }
 
 /// A standard error, and an interval if there is one.
-pub(super) type Bounds = (StandardError, Option<Interval>);
+pub(crate) type Bounds = (StandardError, Option<Interval>);
 
 impl ByPoints<'_> {
     /// Computes the bounds of `estimates`, the results of `quantities` on `whole`, the moments of all points.
@@ -37,24 +37,26 @@ impl ByPoints<'_> {
             let Some(errors) = delta_errors(self.points, &products, quantities) else {
                 return vec![none; estimates.len()];
             };
-            let bounds = |(estimate, error): (&f64, StandardError)| (error, t_interval(*estimate, error));
-            return estimates.iter().zip(errors).map(bounds).collect();
+            let both = estimates.iter().zip(errors);
+            return both.map(|(estimate, error)| (error, t_interval(*estimate, error))).collect();
         }
         let values = resampled(self.points, &products, self.seed, self.resamples, quantities);
         let freedom = self.points.count() as f64 - 1.0;
-        let of_quantity = |(q, estimate): (usize, &f64)| {
+        let mut bounds = Vec::with_capacity(estimates.len());
+        for (q, estimate) in estimates.iter().enumerate() {
             let mut sorted: Vec<f64> =
                 values.iter().flatten().map(|values| values[q]).filter(|x| x.is_finite()).collect();
             let undefined = self.resamples - sorted.len();
             if undefined as f64 > UNDEFINED * self.resamples as f64 || !estimate.is_finite() || freedom < 1.0 {
-                return none;
+                bounds.push(none);
+                continue;
             }
             sorted.sort_by(f64::total_cmp);
             let error = StandardError { error: deviation(&sorted, *estimate), freedom };
             let [low, high] = [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0].map(|p| quantile(&sorted, p));
-            (error, Some(Interval { low, high }))
-        };
-        estimates.iter().enumerate().map(of_quantity).collect()
+            bounds.push((error, Some(Interval { low, high })));
+        }
+        bounds
     }
 }
 
@@ -65,9 +67,9 @@ fn deviation(values: &[f64], estimate: f64) -> f64 {
         return 0.0;
     }
     let n = values.len() as f64;
-    let deviations = || values.iter().map(|x| (x - estimate) / size);
-    let mean = deviations().sum::<f64>() / n;
-    size * (deviations().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt()
+    let mean = values.iter().map(|x| (x - estimate) / size).sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|x| ((x - estimate) / size - mean).powi(2)).sum();
+    size * (squares / (n - 1.0)).sqrt()
 }
 
 /// Returns the quantile at `p` of R sorted values, the (R + 1) p-th of them (Davison and Hinkley 1997, Bootstrap

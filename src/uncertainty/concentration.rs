@@ -26,7 +26,7 @@ const MIN_FREEDOM: f64 = 1.5;
 
 /// The sides of an estimate on which the true value may be if few rows dominate it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(crate) enum Side {
     /// Above: a sum of contributions of one sign, such as an index or a variance.
     Above,
     /// On both: a difference, a share, a mean.
@@ -48,17 +48,16 @@ pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluenc
 
 /// Estimates the excess kurtosis of the sum of all influences; 0 if there are none.
 fn excess_kurtosis(parts: &PartInfluences) -> f64 {
-    let all = || parts.iter().flatten();
-    let size = all().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let size = parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     if size == 0.0 || !size.is_finite() {
         return 0.0;
     }
-    let powers = |(two, four): (f64, f64), x: &f64| {
+    let (mut two, mut four) = (0.0, 0.0);
+    for x in parts.iter().flatten() {
         let square = (x / size) * (x / size);
-        (two + square, four + square * square)
-    };
-    let (two, four) = all().fold((0.0, 0.0), powers);
-    four / (two * two) - 3.0 / all().count() as f64
+        (two, four) = (two + square, four + square * square);
+    }
+    four / (two * two) - 3.0 / parts.iter().map(Vec::len).sum::<usize>() as f64
 }
 
 #[cfg(test)]

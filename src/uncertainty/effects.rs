@@ -1,51 +1,11 @@
-//! The results for one output: indices of factors, groups and subsets, each with its interval.
+//! The indices of one effect with their intervals, from its judged quantities.
 
 use serde::{Deserialize, Serialize};
 
-use super::mean::NoiseIndices;
-use super::surrogate_use::SurrogateUse;
-use super::{Estimate, Interval, largest_half_width};
-
-/// Indices of one output.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OutputIndices {
-    /// Indices of the factors.
-    pub factors: Vec<EffectEstimates>,
-    /// Closed first-order and total indices of the groups.
-    pub groups: Vec<EffectEstimates>,
-    /// Closed first-order and total indices of the subsets that the study lists.
-    pub subsets: Vec<EffectEstimates>,
-    /// Indices of the dummy factor, if requested.
-    pub dummy: Option<EffectEstimates>,
-    /// Sum of the first-order indices of the factors: 1 for an additive output, less where factors interact.
-    pub sum_first_order: Estimate,
-    /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
-    pub sum_total: Estimate,
-    /// Second-order indices, in the order of [`Layout::pair_list`](super::Layout::pair_list); empty if not requested.
-    pub second_order: Vec<Estimate>,
-    /// The use of a surrogate, if there was one.
-    pub surrogate: Option<SurrogateUse>,
-    /// Indices of the mean over the noise, for a stochastic model.
-    pub noise: Option<NoiseIndices>,
-    /// Checks of the indices, in the order of [`effects`](Self::effects).
-    pub checks: Vec<EffectChecks>,
-}
-
-impl OutputIndices {
-    /// Iterates over all effects in the order of the swaps: of factors, groups, subsets and the dummy.
-    pub fn effects(&self) -> impl Iterator<Item = &EffectEstimates> {
-        self.factors.iter().chain(&self.groups).chain(&self.subsets).chain(&self.dummy)
-    }
-
-    /// Returns the largest half width of the first-order and total indices of factors, groups and subsets, and of the
-    /// Shapley effects; `None` if one of them has no interval.
-    pub fn largest_half_width(&self) -> Option<f64> {
-        let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
-        let indices =
-            effects.flat_map(|effect| [Some(effect.first_order), Some(effect.total), effect.shapley]).flatten();
-        largest_half_width(indices)
-    }
-}
+use super::judgement::Judgement;
+use super::ranks::probability_above;
+use super::{Estimate, Interval};
+use crate::effect::{EffectQuantities, IndexPair, OfMean, OtherQuantities};
 
 /// The indices of one factor, group or subset, and their percentages of the sum over all factors (or groups).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -68,7 +28,7 @@ pub struct EffectEstimates {
     #[serde(default)]
     pub interaction: Option<Estimate>,
     /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors';
-    /// `None` for other effects than factors, and if errors are unknown or [ranks](super::IntervalOptions::ranks) were
+    /// `None` for other effects than factors, and if errors are unknown or [ranks](crate::analysis::IntervalOptions::ranks) were
     /// not requested. If several total indices are truly equal, any value is equally likely.
     #[serde(default)]
     pub probability_first: Option<f64>,
@@ -96,7 +56,7 @@ pub struct EffectChecks {
     /// true indices: both were then extended until they met.
     pub is_contradictory: bool,
     /// The indices by each of the other requested estimators.
-    pub others: Vec<OtherEstimates>,
+    pub others: Vec<OtherQuantities<Option<Estimate>>>,
 }
 
 /// Indices of dependent factors in addition to the first-order index Var E(Y | X_i)/V, which includes the dependence of
@@ -110,19 +70,6 @@ pub struct DependentEstimates {
     pub independent_first_order: Estimate,
     /// Total index of the factor including the dependence of others on it.
     pub full_total: Estimate,
-}
-
-/// Indices by another estimator than the default one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OtherEstimates {
-    /// First-order index, if it estimates one.
-    pub first_order: Option<Estimate>,
-    /// Total index, if it estimates one.
-    pub total: Option<Estimate>,
-    /// First-order index minus the default one.
-    pub first_order_gap: Option<Estimate>,
-    /// Total index minus the default one.
-    pub total_gap: Option<Estimate>,
 }
 
 /// Mean and variance of one output, each with its interval.
@@ -140,6 +87,11 @@ impl EffectEstimates {
         self.shapley.filter(|_| self.dependent.is_some()).unwrap_or(self.total)
     }
 
+    /// Iterates over the first-order and the total index, and the Shapley effect if there is one.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = Estimate> + use<> {
+        [Some(self.first_order), Some(self.total), self.shapley].into_iter().flatten()
+    }
+
     /// Returns 100 S_i / sum S_j with its interval.
     pub fn first_order_percent(&self) -> Option<Estimate> {
         self.share_first_order.map(|estimate| Estimate { estimate, interval: self.share_first_order_interval })
@@ -151,7 +103,7 @@ impl EffectEstimates {
     }
 
     /// Returns the indices of dependent factors, from those of a swap that others follow, and of a redrawn one.
-    pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
+    pub(crate) fn of_dependent_factors(self, alone: Self) -> Self {
         Self {
             total: alone.total,
             interaction: None,
@@ -164,8 +116,8 @@ impl EffectEstimates {
 
 impl EffectChecks {
     /// Returns the checks of dependent factors, likewise.
-    pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
-        let others = self.others.iter().zip(&alone.others).map(|(with_others, alone)| OtherEstimates {
+    pub(crate) fn of_dependent_factors(self, alone: Self) -> Self {
+        let others = self.others.iter().zip(&alone.others).map(|(with_others, alone)| OtherQuantities {
             total: alone.total,
             total_gap: alone.total_gap,
             ..*with_others
@@ -174,3 +126,71 @@ impl EffectChecks {
         Self { is_contradictory, others: others.collect(), ..self }
     }
 }
+
+impl EffectQuantities<Judgement> {
+    /// Returns the first-order and the total index.
+    pub(crate) fn index_estimates(&self) -> IndexPair<Estimate> {
+        IndexPair { first_order: self.first_order.estimate, total: self.total.estimate }
+    }
+
+    /// Returns the indices of the mean over the noise, if there is one.
+    pub(crate) fn mean_estimates(&self) -> Option<OfMean<Option<Estimate>>> {
+        let OfMean { first_order, total } = self.of_mean.as_ref()?;
+        Some(OfMean { first_order: defined(first_order), total: total.as_ref().map(defined) })
+    }
+
+    /// Returns the indices with the probability that the total one is above `threshold`, and their checks.
+    pub(crate) fn estimates(&self, threshold: f64) -> (EffectEstimates, EffectChecks) {
+        let (first_order, total, is_contradictory) = agreeing(self.first_order.estimate, self.total.estimate);
+        let interaction = self.interaction.estimate;
+        let share_first_order = defined(&self.shares.first_order);
+        let share_total = defined(&self.shares.total);
+        let estimates = EffectEstimates {
+            first_order,
+            total,
+            share_first_order: share_first_order.map(|share| share.estimate),
+            share_total: share_total.map(|share| share.estimate),
+            share_first_order_interval: share_first_order.and_then(|share| share.interval?.finite()),
+            share_total_interval: share_total.and_then(|share| share.interval?.finite()),
+            interaction: Some(interaction),
+            probability_first: None,
+            probability_above_threshold: probability_above(total, self.total.error, threshold),
+            shapley: self.shapley.as_ref().map(|shapley| shapley.estimate),
+            dependent: None,
+        };
+        let others = self.others.iter().map(|other| OtherQuantities {
+            first_order: defined(&other.first_order),
+            total: defined(&other.total),
+            first_order_gap: defined(&other.first_order_gap),
+            total_gap: defined(&other.total_gap),
+        });
+        let gap = self.check_gap.estimate;
+        (estimates, EffectChecks { gap, interaction, is_contradictory, others: others.collect() })
+    }
+}
+
+/// Returns the same indices with intervals that can both be true: a first-order index is at most the total index, so an
+/// interval wholly above the total's shows that both errors are larger than estimated, at least their distance.
+pub(crate) fn agreeing(first_order: Estimate, total: Estimate) -> (Estimate, Estimate, bool) {
+    match (first_order.interval, total.interval) {
+        (Some(first), Some(all)) if first.low > all.high => {
+            let first = Interval { low: total.estimate, ..first };
+            let all = Interval { high: first_order.estimate, ..all };
+            (Estimate { interval: Some(first), ..first_order }, Estimate { interval: Some(all), ..total }, true)
+        }
+        _ => (first_order, total, false),
+    }
+}
+
+fn defined(judgement: &Judgement) -> Option<Estimate> {
+    Some(judgement.estimate).filter(|e| e.estimate.is_finite())
+}
+
+/// Returns whether an interval excludes 0 by more than its own width: by chance at most 1 in 1000; a 5 % test would
+/// raise a false warning in most studies of eight factors.
+pub(crate) fn differs_clearly(gap: Estimate) -> bool {
+    gap.interval.is_some_and(|interval| gap.estimate.abs() > interval.width())
+}
+
+#[cfg(test)]
+mod tests;

@@ -3,58 +3,6 @@
 use super::net_decay::PartInfluences;
 use crate::estimate::{MomentParts, Moments, merged};
 
-/// A number and its influences from the parts of every net.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Influenced {
-    /// The number.
-    pub estimate: f64,
-    /// The mean influence of the points of every part, `[net][part]`.
-    pub parts: PartInfluences,
-    /// The same for the runs of a low-fidelity model, which are independent of the others; empty without one.
-    pub low: PartInfluences,
-    /// Standard error that no runs show, from the tails of a surrogate.
-    pub beyond: f64,
-}
-
-impl Influenced {
-    /// Returns the exact number `estimate`, independent of the rows.
-    pub(super) fn settled(&self, estimate: f64) -> Self {
-        Self { estimate, parts: zeros(&self.parts), low: zeros(&self.low), beyond: 0.0 }
-    }
-
-    /// Returns a weighted sum of numbers.
-    pub fn combined(list: &[(f64, &Self)]) -> Self {
-        Self::linear(list.iter().map(|(weight, of)| weight * of.estimate).sum(), list)
-    }
-
-    /// Returns its quotient by `whole`.
-    pub fn over(&self, whole: &Self) -> Self {
-        let (estimate, scale) = (self.estimate / whole.estimate, 1.0 / whole.estimate);
-        Self::linear(estimate, &[(scale, self), (-estimate * scale, whole)])
-    }
-
-    /// Returns the number `estimate`, which changes by a weighted sum of the changes of others.
-    pub fn linear(estimate: f64, list: &[(f64, &Self)]) -> Self {
-        let of = |parts: fn(&Self) -> &PartInfluences| {
-            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| zeros(parts(of)));
-            for (weight, of) in list {
-                for (sums, more) in sums.iter_mut().zip(parts(of)) {
-                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
-                }
-            }
-            sums
-        };
-        // These errors have a common cause, so they add linearly.
-        let beyond = list.iter().map(|(weight, of)| weight.abs() * of.beyond).sum();
-        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low), beyond }
-    }
-}
-
-/// Returns parts of the same sizes without influence.
-fn zeros(parts: &PartInfluences) -> PartInfluences {
-    parts.iter().map(|net| vec![0.0; net.len()]).collect()
-}
-
 /// Quantities estimated from all parts of all replicates together, and the influence of each part on them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influences {

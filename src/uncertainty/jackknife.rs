@@ -11,17 +11,18 @@ use super::{Estimate, Interval, t_quantile};
 ///
 /// All lists have one entry per quantity, in the same order.
 pub fn jackknife(whole: &[f64], without: &[Vec<f64>]) -> Vec<Estimate> {
-    let quantile = t_quantile((without.len() as f64 - 1.0).max(0.0));
-    let interval = |k: usize, estimate: f64| {
-        let r = without.len() as f64;
+    let r = without.len() as f64;
+    let quantile = t_quantile((r - 1.0).max(0.0));
+    let mut estimates = Vec::with_capacity(whole.len());
+    for (k, &estimate) in whole.iter().enumerate() {
         // Relative to the estimate, so that nothing large is subtracted.
-        let deviations = || without.iter().map(move |values| values[k] - estimate);
-        let mean = deviations().sum::<f64>() / r;
-        let spread: f64 = deviations().map(|d| (d - mean).powi(2)).sum();
-        let half_width = quantile? * ((r - 1.0) / r * spread).sqrt();
-        Interval::about(estimate, half_width).finite()
-    };
-    whole.iter().enumerate().map(|(k, &estimate)| Estimate { estimate, interval: interval(k, estimate) }).collect()
+        let mean = without.iter().map(|values| values[k] - estimate).sum::<f64>() / r;
+        let spread: f64 = without.iter().map(|values| (values[k] - estimate - mean).powi(2)).sum();
+        let half_width = quantile.map(|quantile| quantile * ((r - 1.0) / r * spread).sqrt());
+        let interval = half_width.and_then(|half_width| Interval::about(estimate, half_width).finite());
+        estimates.push(Estimate { estimate, interval });
+    }
+    estimates
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The kinds of interval.
 
-use super::estimates::ErrorKind;
+use super::judgement::ErrorKind;
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
 use apportion_base::names::named;
@@ -92,7 +92,6 @@ impl IntervalMethod {
 
     /// Computes standard errors from the parts of every replicate; methods on kept outputs are approximated by batches.
     pub(super) fn errors(self, quantities: &[PartInfluences], kinds: &[ErrorKind]) -> Vec<StandardError> {
-        let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {
             Self::Nets => net_errors(quantities, kinds),
             Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
@@ -101,7 +100,8 @@ impl IntervalMethod {
             }
         };
         let none = StandardError { error: f64::NAN, freedom: 0.0 };
-        errors.into_iter().zip(quantities).map(|(error, parts)| if unknown(parts) { none } else { error }).collect()
+        let both = errors.into_iter().zip(quantities);
+        both.map(|(error, parts)| if parts.iter().flatten().all(|x| x.is_finite()) { error } else { none }).collect()
     }
 }
 
@@ -112,8 +112,8 @@ fn means(parts: &PartInfluences) -> Vec<f64> {
 
 /// Returns the parts of all replicates except those that may be incomplete, or all if there are no others.
 fn complete(parts: &PartInfluences) -> Vec<f64> {
-    let whole = |replicate: &Vec<f64>| replicate[..replicate.len().saturating_sub(1).max(1)].to_vec();
-    parts.iter().flat_map(whole).collect()
+    let complete = parts.iter().flat_map(|replicate| &replicate[..replicate.len().saturating_sub(1).max(1)]);
+    complete.copied().collect()
 }
 
 /// Returns the standard error of the mean of independent values of one distribution.

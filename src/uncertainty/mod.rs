@@ -4,44 +4,34 @@
 //! these into a standard error: for Sobol' points by the decay of the error in a net, for random points by their batches, or from the
 //! outputs of every point ([`KeptPoints`]) by the delta method or a bootstrap.
 
-mod aggregate;
 mod bootstrap;
 mod by_points;
 mod concentration;
-mod convergence;
-mod corrected;
 mod delta;
 mod effects;
-mod estimates;
 mod influence;
 mod jackknife;
-mod mean;
+mod judgement;
 mod method;
 mod net_decay;
-mod noise;
-mod output;
 mod points;
 mod ranks;
 mod special;
-mod surrogate_use;
 mod unseen;
 
-pub use aggregate::{AggregateIndices, aggregate_indices};
-pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::SurrogateEstimates;
-pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
-pub use estimates::{Layout, NoiseLayout, SwapNoise};
-pub use influence::{Influenced, Influences};
+pub(crate) use by_points::ByPoints;
+pub(crate) use concentration::Side;
+pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OutputMoments};
+pub(crate) use effects::{agreeing, differs_clearly};
+pub use influence::{Influences, LeftOut};
 pub use jackknife::jackknife;
-pub use mean::{MeanEstimates, NoiseIndices};
+pub(crate) use judgement::{ErrorKind, Judgement};
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError};
-pub use noise::{Noise, in_parts};
-pub use output::{IntervalOptions, differs_clearly, output_indices, output_moments};
 pub use points::KeptPoints;
-pub use ranks::{probability_above, probability_first};
+pub(crate) use ranks::probability_first;
 use serde::{Deserialize, Serialize};
-pub use surrogate_use::{ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateTerm, SurrogateUse};
+pub(crate) use unseen::{half_seen, unseen};
 
 use apportion_base::special::t_quantile_outside;
 
@@ -50,6 +40,9 @@ pub const LEVEL: f64 = 0.95;
 
 /// Quantile of the normal distribution for [`LEVEL`].
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+
+/// Maximum correlation of the two columns of a factor for which the spread of the nets shows its effect on the indices.
+pub(crate) const MAX_CORRELATION: f64 = 0.3;
 
 /// A two-sided confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -146,10 +139,9 @@ impl From<EstimateRecord> for Estimate {
 /// ```
 pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     let estimate = b.estimate - a.estimate;
-    let reach = |of_b: f64, of_a: f64| libm::hypot(of_b - b.estimate, of_a - a.estimate);
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
-        low: estimate - reach(of_b.low, of_a.high),
-        high: estimate + reach(of_b.high, of_a.low),
+        low: estimate - libm::hypot(of_b.low - b.estimate, of_a.high - a.estimate),
+        high: estimate + libm::hypot(of_b.high - b.estimate, of_a.low - a.estimate),
     });
     Estimate { estimate, interval }
 }
@@ -164,7 +156,7 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
 }
 
 /// Returns the quantile of Student's t for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
-fn t_quantile(freedom: f64) -> Option<f64> {
+pub(crate) fn t_quantile(freedom: f64) -> Option<f64> {
     // Above this the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
     // 1e-8.
     const LARGE_FREEDOM: f64 = 1e4;

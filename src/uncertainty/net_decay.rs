@@ -18,7 +18,7 @@
 //! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
 //! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
 
-use super::estimates::ErrorKind;
+use super::judgement::ErrorKind;
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
 
 /// Maximum number of levels of nested parts to which the trend is fitted.
@@ -170,9 +170,12 @@ fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
     let (weights, centre) = weights(shape, logs.len());
     let sum: f64 = weights.iter().sum();
     let height = logs.iter().zip(&weights).map(|(log, w)| log * w).sum::<f64>() / sum;
-    let place = |below: usize| -(below as f64) - centre;
-    let square: f64 = weights.iter().enumerate().map(|(below, w)| w * place(below).powi(2)).sum();
-    let product: f64 = logs.iter().zip(&weights).enumerate().map(|(below, (log, w))| w * log * place(below)).sum();
+    let (mut square, mut product) = (0.0, 0.0);
+    for (below, (log, w)) in logs.iter().zip(&weights).enumerate() {
+        let place = -(below as f64) - centre;
+        square += w * place.powi(2);
+        product += w * log * place;
+    }
     // At least three levels are needed for a slope; fewer are taken to fall like random points.
     (height, if logs.len() < 3 { libm::log(SLOWEST) } else { product / square })
 }

@@ -75,8 +75,8 @@ impl Chunk<'_> {
         let mut work = ProductWork::default();
         let mut first = 0;
         for columns in &self.blocks {
-            let rows = |runs: &[usize]| runs.iter().map(|run| columns[*run]).collect::<Vec<&[f64]>>();
-            let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
+            let ab: Vec<&[f64]> = design.ab_runs().iter().map(|run| columns[*run]).collect();
+            let ba: Vec<&[f64]> = design.ba_runs().iter().map(|run| columns[*run]).collect();
             let block = BlockOutputs { a: columns[0], b: columns[1], ab: &ab, ba: &ba, paired: design.paired() };
             products.fill(&block, &mut matrix.as_mut_slice()[first..], points, &mut work);
             first += columns[0].len();

@@ -4,6 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 
+use super::judgement::Judgement;
 use super::net_decay::{PartInfluences, StandardError};
 use super::{Estimate, NORMAL_QUANTILE, t_quantile};
 use apportion_base::special::t_above;
@@ -15,49 +16,49 @@ const DRAWS: usize = 4096;
 /// of freedom exceeds it once in 60 draws, of three once in 30000.
 const OUT_OF_REACH: f64 = 40.0;
 
-/// Estimates for each quantity the probability that its true value is the largest of all, as far as the errors are
+/// Estimates for each of `ranked` the probability that its true value is the largest of all, as far as the errors are
 /// known: the share of draws from their joint distribution (Student's t, correlated as the influences of the parts are)
 /// in which it is the largest. `seed` makes the draws repeatable. The probabilities sum to 1; with fewer than two
 /// parts, or unknown errors, there are none.
-pub fn probability_first(
-    estimates: &[f64],
-    errors: &[StandardError],
-    parts: &[&PartInfluences],
-    seed: u64,
-) -> Option<Vec<f64>> {
-    let lead = (0..estimates.len()).max_by(|&i, &j| estimates[i].total_cmp(&estimates[j]))?;
-    if errors.iter().any(|error| !error.error.is_finite() || error.freedom <= 0.0) {
+pub(crate) fn probability_first(ranked: &[&Judgement], seed: u64) -> Option<Vec<f64>> {
+    let lead = *ranked.iter().max_by(|a, b| a.estimate.estimate.total_cmp(&b.estimate.estimate))?;
+    if ranked.iter().any(|of| !of.error.error.is_finite() || of.error.freedom <= 0.0) {
         return None;
     }
-    let within_reach = |&k: &usize| {
-        let reach = libm::hypot(errors[k].error, errors[lead].error) * OUT_OF_REACH;
-        // A factor that provably has no effect is not first if any factor has one.
-        let does_nothing = estimates[k] == 0.0 && errors[k].error == 0.0 && estimates[lead] > 0.0;
-        k == lead || (estimates[lead] - estimates[k] <= reach && !does_nothing)
-    };
-    let rivals: Vec<usize> = (0..estimates.len()).filter(within_reach).collect();
-    if rivals.len() == 1 {
-        return Some((0..estimates.len()).map(|k| f64::from(u8::from(k == lead))).collect());
+    let rivals: Vec<usize> = (0..ranked.len()).filter(|&k| may_lead(ranked[k], lead)).collect();
+    let mut wins = vec![0.0; ranked.len()];
+    if let [only] = rivals[..] {
+        wins[only] = 1.0;
+        return Some(wins);
     }
-    let directions = coordinates(rivals.iter().map(|&k| direction(parts[k])).collect());
-    let chi_squared = ChiSquared::new(errors[lead].freedom).ok()?;
+    let directions = coordinates(rivals.iter().map(|&k| direction(&ranked[k].parts)).collect());
+    let chi_squared = ChiSquared::new(lead.error.freedom).ok()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut wins = vec![0.0; estimates.len()];
     let mut normals = vec![0.0; directions.iter().map(Vec::len).max().unwrap_or(0)];
     for _ in 0..DRAWS {
-        normals.iter_mut().for_each(|z| *z = StandardNormal.sample(&mut rng));
-        let widening = (errors[lead].freedom / chi_squared.sample(&mut rng)).sqrt();
-        let drawn = |(place, &k): (usize, &usize)| {
-            let z: f64 = directions[place].iter().zip(&normals).map(|(weight, z)| weight * z).sum();
-            (k, estimates[k] + errors[k].error * widening * z)
-        };
-        let values: Vec<(usize, f64)> = rivals.iter().enumerate().map(drawn).collect();
-        let best = values.iter().fold(f64::NEG_INFINITY, |best, (_, value)| best.max(*value));
+        normals.fill_with(|| StandardNormal.sample(&mut rng));
+        let widening = (lead.error.freedom / chi_squared.sample(&mut rng)).sqrt();
+        let mut values = Vec::with_capacity(rivals.len());
+        for (direction, &k) in directions.iter().zip(&rivals) {
+            let z: f64 = direction.iter().zip(&normals).map(|(weight, z)| weight * z).sum();
+            values.push(ranked[k].estimate.estimate + ranked[k].error.error * widening * z);
+        }
+        let best = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // Equal values share the draw.
-        let share = 1.0 / values.iter().filter(|(_, value)| *value == best).count() as f64;
-        values.iter().filter(|(_, value)| *value == best).for_each(|(k, _)| wins[*k] += share);
+        let share = 1.0 / values.iter().filter(|value| **value == best).count() as f64;
+        for (&k, value) in rivals.iter().zip(values) {
+            wins[k] += if value == best { share } else { 0.0 };
+        }
     }
     Some(wins.into_iter().map(|wins| wins / DRAWS as f64).collect())
+}
+
+/// Returns whether the true value of `of` may be larger than that of `lead`, the largest estimate.
+fn may_lead(of: &Judgement, lead: &Judgement) -> bool {
+    let reach = libm::hypot(of.error.error, lead.error.error) * OUT_OF_REACH;
+    // A factor that provably has no effect is not first if any factor has one.
+    let does_nothing = of.estimate.estimate == 0.0 && of.error.error == 0.0 && lead.estimate.estimate > 0.0;
+    std::ptr::eq(of, lead) || (lead.estimate.estimate - of.estimate.estimate <= reach && !does_nothing)
 }
 
 /// Returns the influences of all parts, scaled to unit length; all zero for a quantity without any.

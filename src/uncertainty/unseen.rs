@@ -7,9 +7,9 @@
 //! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
 //! unchanged in every row keeps an error of 0.
 
-use super::estimates::{Layout, Number, OtherNumber, Quantity, SwapNoise};
 use super::net_decay::PartInfluences;
-use crate::estimate::Moments;
+use crate::effect::{EffectQuantities, IndexPair, Layout, NoisePairing, Quantities};
+use crate::estimate::{Moments, SwapMoments};
 
 /// Upper bound at 95 % of the expected number of rows of a kind not seen in n rows: -ln 0.05.
 const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
@@ -23,14 +23,14 @@ const MIN_PART: f64 = 0.2;
 
 /// Returns whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) then misses
 /// their contribution to a first-order index, and its spread does not show it. With rows BA no single sample decides.
-pub(super) fn half_seen(moments: &Moments, swap: usize) -> bool {
+pub(crate) fn half_seen(moments: &Moments, swap: usize) -> bool {
     let sums = moments.swap(swap);
     sums.ba.is_none() && sums.base.bb < MIN_PART * (sums.base.aa + sums.base.bb)
 }
 
 /// The possible error of an estimate without spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Unseen {
+pub(crate) struct Unseen {
     /// Half width of its interval; 0 if the estimate is exact, or if no bound applies.
     pub half_width: f64,
     /// Influences up to this size are rounding.
@@ -40,79 +40,92 @@ pub(super) struct Unseen {
 impl Unseen {
     const NONE: Self = Self { half_width: 0.0, rounding: 0.0 };
 
+    fn map(self, change: impl Fn(f64) -> f64) -> Self {
+        Self { half_width: change(self.half_width), rounding: change(self.rounding) }
+    }
+
     /// Returns whether no part moves the estimate although rows might have.
     pub fn applies(&self, parts: &PartInfluences) -> bool {
         self.half_width > 0.0 && parts.iter().flatten().all(|influence| influence.abs() <= self.rounding)
     }
 }
 
-/// Returns for every quantity of [`super::estimates::quantities`] its possible error if its influences show no spread;
-/// `values` are the quantities. Differences between estimators have none.
-pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<Unseen> {
-    let mut list = vec![Unseen::NONE; values.len()];
-    let Some((low, high)) = moments.range() else { return list };
+/// Returns the possible error of every quantity if its influences show no spread; `values` are the quantities.
+/// Differences between estimators have none.
+pub(crate) fn unseen(layout: &Layout, moments: &Moments, values: &Quantities<f64>) -> Quantities<Unseen> {
+    let mut all = values.clone().map(|_, _| Unseen::NONE);
+    let Some((low, high)) = moments.range() else { return all };
     // In two steps: the square of the range may overflow.
     let sd = moments.variance().sqrt();
     let spread = (high - low) / sd * ((high - low) / sd);
-    let bound = |n: u64, part: f64| (RULE_OF_THREE / n as f64 * spread * part).min(1.0);
-    let acts: Vec<bool> = (0..layout.swaps()).map(|swap| !moments.swap(swap).inert()).collect();
-    let active = acts[..layout.factors].iter().filter(|acts| **acts).count();
-    let place = |swap: usize, number: Number| layout.place(Quantity::Swap(swap, number));
-    let mut most = 0.0f64;
-    for swap in (0..layout.swaps()).filter(|swap| acts[*swap]) {
-        let sums = moments.swap(swap);
-        let total = values[place(swap, Number::Total)].abs().min(1.0);
-        // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
-        let first = bound(sums.base.n, if sums.ba.is_some() { 0.5 } else { 1.0 });
-        let half = bound(sums.base.n, 0.5);
-        let of_first = Unseen { half_width: first, rounding: ROUNDING * total.sqrt() };
-        let of_total = Unseen { half_width: half, rounding: ROUNDING * total };
-        for (number, unseen) in [(Number::FirstOrder, of_first), (Number::Total, of_total)] {
-            list[place(swap, number)] = unseen;
-        }
+    let inputs = layout.inputs();
+    let is_alone = (0..inputs).filter(|swap| !moments.swap(*swap).inert()).count() <= 1;
+    for (at, (unseen, value)) in all.effects.iter_mut().zip(&values.effects).enumerate() {
         // The share of the only factor with an effect is exactly 100 %.
-        if active > 1 || swap >= layout.factors {
-            let percent =
-                |unseen: Unseen| Unseen { half_width: 100.0 * unseen.half_width, rounding: 100.0 * unseen.rounding };
-            for (number, unseen) in [(Number::ShareFirstOrder, of_first), (Number::ShareTotal, of_total)] {
-                list[place(swap, number)] = percent(unseen);
-            }
-        }
-        for estimator in 0..layout.estimators.len() {
-            for (number, unseen) in [(OtherNumber::FirstOrder, of_first), (OtherNumber::Total, of_total)] {
-                list[layout.place(Quantity::Other(estimator, swap, number))] = unseen;
-            }
-        }
-        if swap < layout.factors {
-            most = most.max(first);
+        let has_share = !(is_alone && value.effect.is_input());
+        unseen.allow_for_rows(moments.swap(layout.swap(at)), spread, value.total, has_share);
+    }
+    for (at, (unseen, value)) in all.redrawn.iter_mut().zip(&values.redrawn).enumerate() {
+        unseen.allow_for_rows(moments.swap(layout.redrawn_swap(at)), spread, value.total, true);
+    }
+    let largest = all.effects[..inputs].iter().map(|effect| effect.first_order.half_width).fold(0.0, f64::max);
+    let of_sum = Unseen { half_width: largest, rounding: ROUNDING };
+    all.sums = IndexPair { first_order: of_sum, total: of_sum };
+    for pair in &mut all.pairs {
+        let (j, k) = (moments.swap(pair.factors.0), moments.swap(pair.factors.1));
+        if !j.inert() && !k.inert() {
+            let total = |factor: usize| values.effects[factor].total.abs().min(1.0);
+            let rounding = ROUNDING * (total(pair.factors.0) * total(pair.factors.1)).sqrt();
+            pair.value = Unseen { half_width: bound(j.base.n.min(k.base.n), spread, 1.0), rounding };
         }
     }
-    for sum in [Quantity::SumFirstOrder, Quantity::SumTotal] {
-        list[layout.place(sum)] = Unseen { half_width: most, rounding: ROUNDING };
-    }
-    if layout.second_order {
-        for (pair, (j, k)) in layout.pair_list().into_iter().enumerate().filter(|(_, (j, k))| acts[*j] && acts[*k]) {
-            let total = |swap: usize| values[place(swap, Number::Total)].abs().min(1.0);
-            let n = moments.swap(j).base.n.min(moments.swap(k).base.n);
-            let rounding = ROUNDING * (total(j) * total(k)).sqrt();
-            list[layout.place(Quantity::Pair(pair))] = Unseen { half_width: bound(n, 1.0), rounding };
+    if let (Some(noise), Some(share)) = (&layout.noise, values.mean_share) {
+        all.mean_share = Some(all.effects[noise.factor].total);
+        if share > 0.0 {
+            allow_for_mean(&mut all.effects, &noise.pairings, share);
         }
     }
-    if let Some(noise) = &layout.noise {
-        let share_place = layout.place(Quantity::MeanShare);
-        let share = values[share_place];
-        let over_share = |of: Unseen| Unseen { half_width: of.half_width / share, rounding: of.rounding / share };
-        list[share_place] = list[place(noise.factor, Number::Total)];
-        for (swap, beside) in noise.swaps.iter().enumerate().filter(|_| share > 0.0) {
-            if *beside != SwapNoise::Holds {
-                list[layout.place(Quantity::MeanFirstOrder(swap))] = over_share(list[place(swap, Number::FirstOrder)]);
-            }
-            if let SwapNoise::With(joined) = *beside {
-                list[layout.place(Quantity::MeanTotal(swap))] = over_share(list[place(joined, Number::Total)]);
-            }
+    all
+}
+
+/// Returns the largest change of an index by rows of a kind not seen in `n` rows, each of which adds at most `part` of
+/// R^2/V, the square of the range over the variance.
+fn bound(n: u64, spread: f64, part: f64) -> f64 {
+    (RULE_OF_THREE / n as f64 * spread * part).min(1.0)
+}
+
+/// Sets the possible errors of indices of the mean over the noise, which has the `share` of the variance.
+fn allow_for_mean(effects: &mut [EffectQuantities<Unseen>], pairings: &[NoisePairing], share: f64) {
+    let totals: Vec<Unseen> = effects.iter().map(|effect| effect.total).collect();
+    for (effect, pairing) in effects.iter_mut().zip(pairings) {
+        let Some(of_mean) = &mut effect.of_mean else { continue };
+        of_mean.first_order = effect.first_order.map(|x| x / share);
+        if let NoisePairing::PairedWith(joined) = *pairing {
+            of_mean.total = Some(totals[joined].map(|x| x / share));
         }
     }
-    list
+}
+
+impl EffectQuantities<Unseen> {
+    /// Sets the possible errors of an effect with these sums and `total` index, unless it leaves the output unchanged in
+    /// every row.
+    fn allow_for_rows(&mut self, sums: &SwapMoments, spread: f64, total: f64, has_share: bool) {
+        if sums.inert() {
+            return;
+        }
+        let total = total.abs().min(1.0);
+        // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
+        let part = if sums.ba.is_some() { 0.5 } else { 1.0 };
+        self.first_order = Unseen { half_width: bound(sums.base.n, spread, part), rounding: ROUNDING * total.sqrt() };
+        self.total = Unseen { half_width: bound(sums.base.n, spread, 0.5), rounding: ROUNDING * total };
+        if has_share {
+            self.shares =
+                IndexPair { first_order: self.first_order.map(|x| 100.0 * x), total: self.total.map(|x| 100.0 * x) };
+        }
+        for other in &mut self.others {
+            (other.first_order, other.total) = (self.first_order, self.total);
+        }
+    }
 }
 
 #[cfg(test)]

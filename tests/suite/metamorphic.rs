@@ -1,10 +1,12 @@
 //! Invariance: offset and scale of the output, order of the factors, number of threads.
 
+use apportion::analysis::{IntervalOptions, OutputIndices, output_indices};
 use apportion::design::{Design, DesignSettings, Rows};
+use apportion::effect::Layout;
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
-use apportion::uncertainty::{Estimate, IntervalMethod, IntervalOptions, Layout, OutputIndices, output_indices};
+use apportion::uncertainty::{Estimate, IntervalMethod};
 use apportion_base::quantity::Unit;
 use proptest::prelude::*;
 
@@ -79,8 +81,8 @@ fn bounds(indices: &OutputIndices) -> Vec<f64> {
 }
 
 fn numbers_of(indices: &OutputIndices, of: fn(Estimate) -> Vec<f64>) -> Vec<f64> {
-    let all = indices.factors.iter().zip(&indices.checks);
-    all.flat_map(|(effect, checks)| [effect.first_order, effect.total, checks.gap]).flat_map(of).collect()
+    let all = indices.effects.iter();
+    all.flat_map(|of| [of.estimates.first_order, of.estimates.total, of.checks.gap]).flat_map(of).collect()
 }
 
 #[test]
@@ -115,7 +117,7 @@ fn the_order_of_the_factors_changes_their_coordinates_only() {
     let plain = indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
     let swapped = indices(&Changed::new(1.0, 0.0, [2, 0, 1]), 1 << 14);
     for (j, k) in [(0, 2), (1, 0), (2, 1)] {
-        let (a, b) = (&plain.factors[j], &swapped.factors[k]);
+        let (a, b) = (&plain.effects[j].estimates, &swapped.effects[k].estimates);
         assert!((a.first_order.estimate - b.first_order.estimate).abs() < 0.01);
         assert!((a.total.estimate - b.total.estimate).abs() < 0.01);
     }

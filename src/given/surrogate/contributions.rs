@@ -11,9 +11,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::correction::in_parts;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
-use crate::uncertainty::in_parts;
 
 /// A number that is a mean over rows.
 #[derive(Debug, Clone)]

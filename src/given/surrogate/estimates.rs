@@ -2,7 +2,8 @@
 
 use super::contributions::{FoldSums, To};
 use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms};
-use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
+use crate::correction::{CorrectionError, EstimateWithInfluences};
+use crate::uncertainty::{Estimate, Interval};
 
 /// Computes the estimates of the inputs with these names from all folds.
 pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
@@ -17,24 +18,26 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
     }
     let of_first_order = |input: usize| gathered(folds, rows, beyond.first_order[input], To::FirstOrder(input));
     let of_total = |input: usize| gathered(folds, rows, beyond.total[input], To::Total(input));
-    let first_order: Vec<Influenced> = (0..names.len()).map(|input| of_first_order(input).over(&variance)).collect();
-    let total: Vec<Influenced> = (0..names.len()).map(|input| of_total(input).over(&variance)).collect();
+    let first_order: Vec<EstimateWithInfluences> =
+        (0..names.len()).map(|input| of_first_order(input).over(&variance)).collect();
+    let total: Vec<EstimateWithInfluences> = (0..names.len()).map(|input| of_total(input).over(&variance)).collect();
     let left = fitted.left_square() / variance.estimate;
     let unknown = left.clamp(0.0, 1.0);
-    let noise = |list: &[Influenced], skewed: bool| {
-        Noise::new(&list.iter().map(|index| &index.parts).collect::<Vec<_>>(), skewed)
+    let noise = |list: &[EstimateWithInfluences], skewed: bool| {
+        CorrectionError::new(list.iter().map(|index| &index.parts), skewed)
     };
     let (of_first_order, of_total) = (noise(&first_order, false), noise(&total, true));
-    let raised = |noise: Noise, of: &Influenced| {
+    let raised = |noise: CorrectionError, of: &EstimateWithInfluences| {
         let Estimate { estimate, interval } = noise.estimate(of);
         let interval = interval.map(|Interval { low, high }| Interval { low, high: high + unknown });
         Estimate { estimate, interval }
     };
-    let of_input = |((first, all), input): ((&Influenced, &Influenced), &&str)| SurrogateIndices {
-        input: (*input).to_owned(),
-        first_order: raised(of_first_order, first),
-        total: raised(of_total, all),
-    };
+    let of_input =
+        |((first, all), input): ((&EstimateWithInfluences, &EstimateWithInfluences), &&str)| SurrogateIndices {
+            input: (*input).to_owned(),
+            first_order: raised(of_first_order, first),
+            total: raised(of_total, all),
+        };
     let leading = leading_terms(expansions, variance.estimate);
     let explained = 1.0 - left;
     SurrogateOutput {
@@ -50,11 +53,11 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
 }
 
 /// Returns the mean over all rows, with the influences of the parts of every fold and the error `beyond` the rows.
-fn gathered(folds: &[FoldSums], rows: f64, beyond: f64, to: To) -> Influenced {
+fn gathered(folds: &[FoldSums], rows: f64, beyond: f64, to: To) -> EstimateWithInfluences {
     let estimate = folds.iter().filter_map(|fold| fold.sums.get(&to)).map(|fold| fold.sum).sum::<f64>() / rows;
     let parts = |fold: &FoldSums| match fold.sums.get(&to) {
         Some(folded) => folded.parts.iter().map(|x| x - estimate).collect(),
         None => vec![-estimate; fold.sums[&To::Variance].parts.len()],
     };
-    Influenced { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new(), beyond }
+    EstimateWithInfluences { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new(), beyond }
 }

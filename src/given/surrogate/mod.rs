@@ -18,14 +18,15 @@ use thiserror::Error;
 
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
+use crate::correction::Effects;
+use crate::correction::NamedTerm;
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
 use crate::surrogate::beyond::Beyond;
-use crate::surrogate::corrected::Effects;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, leading_terms};
-use crate::uncertainty::{Estimate, NamedTerm};
+use crate::uncertainty::Estimate;
 
 /// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
 pub const MIN_EXPLAINED: f64 = 0.9;

@@ -1,7 +1,7 @@
 use super::*;
+use crate::correction::EstimateWithInfluences;
 use crate::design::{DesignSettings, Rows};
 use crate::space::Distribution;
-use crate::uncertainty::Influenced;
 
 /// Returns outputs of every run and point of each replicate of `design`.
 fn kept(design: &Design, f: impl Fn(&[f64]) -> f64) -> Vec<PointOutputs> {
@@ -38,8 +38,9 @@ fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         let alone = surrogate_estimates(&design, &families, &layout, of, None).unwrap();
         let together = together.as_ref().unwrap();
         assert!(together.explained > 1.0 - 1e-6, "{k}: {} {}", together.explained, alone.explained);
-        for (a, b) in alone.total.iter().zip(&together.total) {
-            assert!((a.estimate - b.estimate).abs() < 1e-4, "{k}: {} {}", a.estimate, b.estimate);
+        for (a, b) in alone.effects.iter().zip(&together.effects) {
+            let (a, b) = (a.total.estimate, b.total.estimate);
+            assert!((a - b).abs() < 1e-4, "{k}: {a} {b}");
         }
     }
     // Up to 32 outputs are fitted one by one, to the same bits.
@@ -64,8 +65,8 @@ fn steps_and_kinks_are_located() {
     let variance = parts.iter().sum::<f64>() + both;
     for (factor, part) in parts.iter().enumerate() {
         let total = part + if factor < 2 { both } else { 0.0 };
-        let error = |of: &Influenced, exact: f64| (of.estimate - exact / variance).abs();
-        let errors = [error(&found.first_order[factor], *part), error(&found.total[factor], total)];
+        let error = |of: &EstimateWithInfluences, exact: f64| (of.estimate - exact / variance).abs();
+        let errors = [error(&found.effects[factor].first_order, *part), error(&found.effects[factor].total, total)];
         assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
     }
     let chosen = found.chosen.unwrap();

@@ -1,8 +1,14 @@
 use super::*;
 use crate::design::{Design, DesignSettings, Rows, Sampler};
+use crate::effect::{Layout, Quantities};
+use crate::estimate;
 use crate::estimate::{BlockOutputs, Estimator, PointOutputs, Workspace};
 use crate::uncertainty::bootstrap::counts_of;
-use crate::uncertainty::estimates::{Layout, Number, Quantity, quantities};
+
+/// Returns all quantities in one list.
+fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>> {
+    estimate::quantities(layout, moments).map(Quantities::into_list)
+}
 
 /// Outputs of a made-up model at the rows of a design of three factors.
 struct Sample {
@@ -178,17 +184,16 @@ fn the_error_of_a_mean_is_the_textbook_one() {
 fn the_inert_factor_has_intervals_of_no_width() {
     let sample = Sample::new(300, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
-        let (estimates, bounds) = sample.bounds(method);
-        let indices = |factor| {
-            [Number::FirstOrder, Number::Total].map(|number| sample.layout.place(Quantity::Swap(factor, number)))
-        };
-        for place in indices(2) {
-            assert_eq!(estimates[place], 0.0);
-            assert_eq!(bounds[place].1, Some(Interval { low: 0.0, high: 0.0 }), "{method:?}");
+        let (_, bounds) = sample.bounds(method);
+        let judged = estimate::quantities(&sample.layout, &sample.whole()).unwrap().zip(bounds);
+        let indices = |factor: usize| [judged.effects[factor].first_order, judged.effects[factor].total];
+        for (estimate, bounds) in indices(2) {
+            assert_eq!(estimate, 0.0);
+            assert_eq!(bounds.1, Some(Interval { low: 0.0, high: 0.0 }), "{method:?}");
         }
-        for place in indices(0) {
-            let Interval { low, high } = bounds[place].1.unwrap();
-            assert!(low < estimates[place] && estimates[place] < high && high - low < 0.5, "{method:?}: {low} {high}");
+        for (estimate, bounds) in indices(0) {
+            let Interval { low, high } = bounds.1.unwrap();
+            assert!(low < estimate && estimate < high && high - low < 0.5, "{method:?}: {low} {high}");
         }
     }
 }

@@ -5,12 +5,18 @@ fn error(error: f64, freedom: f64) -> StandardError {
     StandardError { error, freedom }
 }
 
+fn first(estimates: &[f64], errors: &[StandardError], parts: &[&PartInfluences], seed: u64) -> Option<Vec<f64>> {
+    let ranked: Vec<Judgement> =
+        (0..parts.len()).map(|k| Judgement::new(Estimate::alone(estimates[k]), errors[k], parts[k].clone())).collect();
+    probability_first(&ranked.iter().collect::<Vec<_>>(), seed)
+}
+
 #[test]
 fn two_independent_normals_rank_as_their_difference_says() {
     // Many degrees of freedom: P(X1 > X2) = Phi((m1 - m2)/sqrt(s1^2 + s2^2)) = Phi(1) = 0.8413.
     let parts = [vec![vec![1.0, -1.0, 0.0, 0.0]], vec![vec![0.0, 0.0, 1.0, -1.0]]];
     let errors = [error(0.3, 1e6), error(0.4, 1e6)];
-    let got = probability_first(&[1.5, 1.0], &errors, &[&parts[0], &parts[1]], 1).unwrap();
+    let got = first(&[1.5, 1.0], &errors, &[&parts[0], &parts[1]], 1).unwrap();
     // Standard error of a share of 4096 draws: 0.0057.
     assert!((got[0] - 0.8413).abs() < 0.025, "{got:?}");
     assert!((got[0] + got[1] - 1.0).abs() < 1e-12);
@@ -19,7 +25,7 @@ fn two_independent_normals_rank_as_their_difference_says() {
 #[test]
 fn a_common_error_does_not_change_the_order() {
     let parts = vec![vec![1.0, -1.0]];
-    let got = probability_first(&[1.0, 0.9], &[error(1.0, 5.0); 2], &[&parts, &parts], 1).unwrap();
+    let got = first(&[1.0, 0.9], &[error(1.0, 5.0); 2], &[&parts, &parts], 1).unwrap();
     assert_eq!(got, [1.0, 0.0]);
 }
 
@@ -33,14 +39,14 @@ fn coordinates_keep_lengths_and_angles() {
 #[test]
 fn certain_and_unknown_errors() {
     let none = vec![vec![0.0, 0.0]];
-    let got = probability_first(&[0.2, 0.5, 0.1], &[error(0.0, 3.0); 3], &[&none; 3], 0).unwrap();
+    let got = first(&[0.2, 0.5, 0.1], &[error(0.0, 3.0); 3], &[&none; 3], 0).unwrap();
     assert_eq!(got, [0.0, 1.0, 0.0]);
     let parts = vec![vec![1.0, -1.0]];
-    let idle = probability_first(&[0.5, 0.0], &[error(0.4, 1.0), error(0.0, 1.0)], &[&parts, &none], 0).unwrap();
+    let idle = first(&[0.5, 0.0], &[error(0.4, 1.0), error(0.0, 1.0)], &[&parts, &none], 0).unwrap();
     assert_eq!(idle, [1.0, 0.0]);
-    let tied = probability_first(&[0.0, 0.0], &[error(0.0, 3.0); 2], &[&none; 2], 0).unwrap();
+    let tied = first(&[0.0, 0.0], &[error(0.0, 3.0); 2], &[&none; 2], 0).unwrap();
     assert_eq!(tied, [0.5, 0.5]);
-    assert_eq!(probability_first(&[0.2, 0.5], &[error(f64::NAN, 0.0); 2], &[&none; 2], 0), None);
+    assert_eq!(first(&[0.2, 0.5], &[error(f64::NAN, 0.0); 2], &[&none; 2], 0), None);
     let plain = |estimate: f64| Estimate::alone(estimate);
     assert_eq!(probability_above(plain(0.2), error(0.0, 1.0), 0.1), Some(1.0));
     assert_eq!(probability_above(plain(0.1), error(0.1, 4.0), 0.1), Some(0.5));

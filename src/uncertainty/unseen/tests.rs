@@ -10,16 +10,16 @@ fn only_a_factor_that_changes_no_row_is_without_effect() {
     let (a, b) = ([0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
     let moments = moments(&a, &b, &[&b, &a]);
     let layout = Layout::plain(2);
-    let values = super::super::estimates::quantities(&layout, &moments).unwrap();
+    let values = crate::estimate::quantities(&layout, &moments).unwrap();
     let unseen = unseen(&layout, &moments, &values);
-    let of = |swap: usize| unseen[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
+    let of = |factor: usize| unseen.effects[factor].first_order;
     // R^2/V = 4, and fewer than 3 of 4 rows: no bound but that of an index.
     assert_eq!(of(0).half_width, 1.0);
     assert_eq!(of(1), Unseen::NONE);
     assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
     assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
     // The only factor with an effect has all of the share.
-    assert_eq!(unseen[layout.place(Quantity::Swap(0, Number::ShareFirstOrder))], Unseen::NONE);
+    assert_eq!(unseen.effects[0].shares.first_order, Unseen::NONE);
 }
 
 #[test]

@@ -273,7 +273,7 @@ fn asked(study: &Study) -> Vec<String> {
     };
     let parts = [
         Some(format!("first-order and total indices of {of}")),
-        several(study.layout().groups, "group"),
+        several(study.layout().effects.iter().filter(|effect| effect.is_group()).count(), "group"),
         several(analysis.subsets.len(), "subset"),
         analysis.dummy.then(|| "a dummy factor".to_owned()),
         analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())),

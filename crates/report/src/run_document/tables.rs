@@ -1,8 +1,9 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
+use apportion::correction::NamedTerm;
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult, SurrogateRecord};
-use apportion::uncertainty::{EffectEstimates, Estimate, Interval, NamedTerm};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
 use crate::format::{among_with_unit, chance, grouped, index_with_unit, minus, name, printed, significant, value};

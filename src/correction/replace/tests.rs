@@ -15,7 +15,7 @@ fn gaps_are_measured_by_both_intervals() {
 #[test]
 fn one_index_far_off_contradicts_and_all_of_them_a_little() {
     let judged = |gaps: Vec<f64>| {
-        let gaps = Gaps::new(&[gaps, vec![0.1; 4]]);
+        let gaps = Gaps::new(&[&gaps, &[0.1; 4]]);
         (gaps.is_doubt(), gaps.refusal().is_some())
     };
     assert_eq!(judged(vec![2.5, 0.2, 0.1, 0.3]), (false, false));

@@ -1,14 +1,13 @@
 //! The change of estimates and intervals as a run grew, computed from its parts at the end.
 
-use super::corrected::SurrogateEstimates;
-use super::effects::OutputIndices;
-use super::estimates::Layout;
-use super::output::{IntervalOptions, output_indices};
+use super::output_indices::{IntervalOptions, OutputIndices, output_indices};
+use crate::correction::SurrogateEstimates;
+use crate::effect::Layout;
 use crate::estimate::MomentParts;
 
 /// The indices of an output when the run had fewer base points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stage {
+pub(super) struct Stage {
     /// Total number of base points.
     pub base_samples: u64,
     /// The indices at that stage.
@@ -33,22 +32,26 @@ fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
 }
 
 /// Returns the maximum number of base points of a replicate at each stage but the last.
-pub fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
-    let longest = |size: usize| replicates.iter().map(|replicate| replicate.prefix(size).points()).max().unwrap_or(0);
-    sizes_of_stages(replicates).into_iter().map(longest).collect()
+pub(super) fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
+    let mut points = Vec::new();
+    for size in sizes_of_stages(replicates) {
+        points.push(replicates.iter().map(|replicate| replicate.prefix(size).points()).max().unwrap_or(0));
+    }
+    points
 }
 
 /// Returns the stages of a run at each half of the one after it, `whole` last: every prefix of the parts of each
 /// replicate is a run of its own. `surrogate` returns the surrogate estimates for a number of first base points of each
 /// replicate. Stages without indices are left out.
-pub fn stages<'s>(
+pub(super) fn stages<'s>(
     replicates: &[MomentParts],
     layout: &Layout,
     options: &IntervalOptions<'_>,
     whole: &OutputIndices,
     surrogate: &dyn Fn(u64) -> Option<&'s SurrogateEstimates>,
 ) -> Vec<Stage> {
-    let stage = |size: usize| {
+    let mut stages = Vec::new();
+    for size in sizes_of_stages(&replicates.iter().collect::<Vec<_>>()) {
         let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
         let base_samples = prefix.iter().map(MomentParts::points).sum();
         let longest = prefix.iter().map(MomentParts::points).max().unwrap_or(0);
@@ -59,10 +62,11 @@ pub fn stages<'s>(
             correlations: &[],
             ..*options
         };
-        output_indices(&prefix, layout, &options).ok().map(|indices| Stage { base_samples, indices })
-    };
+        if let Ok(indices) = output_indices(&prefix, layout, &options) {
+            stages.push(Stage { base_samples, indices });
+        }
+    }
     let base_samples = replicates.iter().map(MomentParts::points).sum();
-    let last = Stage { base_samples, indices: whole.clone() };
-    let sizes = sizes_of_stages(&replicates.iter().collect::<Vec<_>>());
-    sizes.into_iter().filter_map(stage).chain([last]).collect()
+    stages.push(Stage { base_samples, indices: whole.clone() });
+    stages
 }

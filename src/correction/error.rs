@@ -7,9 +7,8 @@
 //! counts. The variance is the mean of both, and each side of an interval has the degrees of freedom that its largest
 //! contributions leave.
 
-use super::influence::Influenced;
-use super::net_decay::{PartInfluences, StandardError};
-use super::{Estimate, Interval, t_quantile};
+use super::influenced::EstimateWithInfluences;
+use crate::uncertainty::{Estimate, Interval, Judgement, PartInfluences, StandardError, t_quantile};
 
 /// Maximum number of parts of a net whose mean influences represent its points.
 const PARTS: usize = 64;
@@ -37,7 +36,7 @@ const FREEDOM_OF_SIDE: f64 = 0.4;
 
 /// The joint statistics of the errors of indices of one kind, first-order or total.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
+pub struct CorrectionError {
     /// The spread between nets over that expected from within.
     common: f64,
     /// Its degrees of freedom.
@@ -52,21 +51,19 @@ pub struct Noise {
     unit: f64,
 }
 
-/// A number, its interval, its error, and its influences.
-pub(super) type Replacement = (Estimate, StandardError, PartInfluences);
-
 /// Returns the variance of the mean over all nets by the spread within them, and by that between them.
 fn variances(parts: &PartInfluences) -> (f64, f64) {
     let nets = parts.len() as f64;
     let means: Vec<f64> = parts.iter().map(|net| net.iter().sum::<f64>() / net.len().max(1) as f64).collect();
-    let of_net = |(net, mean): (&Vec<f64>, &f64)| {
-        let n = net.len() as f64;
-        net.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / ((n - 1.0).max(1.0) * n)
-    };
-    let within: f64 = parts.iter().zip(&means).map(of_net).sum();
+    let within: f64 = parts.iter().zip(&means).map(|(net, mean)| variance_of_mean(net, *mean)).sum();
     let centre = means.iter().sum::<f64>() / nets;
     let between = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / ((nets - 1.0).max(1.0) * nets);
     (within / (nets * nets), between)
+}
+
+fn variance_of_mean(net: &[f64], mean: f64) -> f64 {
+    let n = net.len() as f64;
+    net.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / ((n - 1.0).max(1.0) * n)
 }
 
 /// Returns sum x^4/(sum x^2)^2 over the negative and the positive influences.
@@ -77,33 +74,36 @@ fn concentration(parts: &PartInfluences) -> [f64; 2] {
     }
     let squares: f64 = parts.iter().flatten().map(|x| (x / size).powi(2)).sum();
     [-1.0, 1.0].map(|sign| {
-        let fourth = |x: &f64| if x * sign > 0.0 { (x / size).powi(4) } else { 0.0 };
-        parts.iter().flatten().map(fourth).sum::<f64>() / (squares * squares)
+        let fourth = parts.iter().flatten().map(|x| if x * sign > 0.0 { (x / size).powi(4) } else { 0.0 });
+        fourth.sum::<f64>() / (squares * squares)
     })
 }
 
-impl Noise {
+impl CorrectionError {
     /// Computes the statistics of indices of one kind; `skewed` for total indices.
-    pub fn new(quantities: &[&PartInfluences], skewed: bool) -> Self {
-        let moving: Vec<&PartInfluences> =
-            quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
+    pub fn new<'a>(indices: impl IntoIterator<Item = &'a PartInfluences>, skewed: bool) -> Self {
+        let moving: Vec<&PartInfluences> = indices.into_iter().filter(|parts| variances(parts).0 > 0.0).collect();
         // Without any, the factors are 1, as before any spread is known.
         let count = moving.len().max(1) as f64;
         let nets = moving.first().map_or(1, |parts| parts.len()) as f64;
         let ratios = moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within);
         let ratio = ratios.sum::<f64>() / count;
-        let direct = |dependence: f64| (nets - 1.0) * (count / dependence).max(1.0);
-        let factor = |direct: f64, prior: f64| (direct * ratio + prior) / (direct + prior);
-        let common_freedom = direct(DEPENDENCE) + COMMON_FREEDOM;
-        let common = factor(direct(DEPENDENCE), COMMON_FREEDOM);
-        let prudent = factor(direct(PRUDENT_DEPENDENCE), PRUDENT_FREEDOM);
+        let direct = (nets - 1.0) * (count / DEPENDENCE).max(1.0);
+        let prudent = (nets - 1.0) * (count / PRUDENT_DEPENDENCE).max(1.0);
         let sums = moving.iter().map(|parts| concentration(parts)).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-        Self { common, common_freedom, prudent, concentration: sums.map(|sum| sum / count), skewed, unit: 1.0 }
+        Self {
+            common: (direct * ratio + COMMON_FREEDOM) / (direct + COMMON_FREEDOM),
+            common_freedom: direct + COMMON_FREEDOM,
+            prudent: (prudent * ratio + PRUDENT_FREEDOM) / (prudent + PRUDENT_FREEDOM),
+            concentration: sums.map(|sum| sum / count),
+            skewed,
+            unit: 1.0,
+        }
     }
 
     /// Computes those of a number whose size is the scale of rounding: a mean or a variance.
     pub fn of_moment(parts: &PartInfluences, skewed: bool) -> Self {
-        Self { unit: 0.0, ..Self::new(&[parts], skewed) }
+        Self { unit: 0.0, ..Self::new([parts], skewed) }
     }
 
     /// Adapts them to a choice by errors: for a rare event nets may agree by chance, and all be wrong.
@@ -118,41 +118,40 @@ impl Noise {
     }
 
     /// Returns the standard error of the number.
-    pub fn error(&self, of: &Influenced) -> StandardError {
-        let mut own = self.error_of_parts(&of.parts);
-        own.error = libm::hypot(own.error, of.beyond);
+    pub fn error(&self, of: &EstimateWithInfluences) -> StandardError {
+        let mut model = self.error_of_parts(&of.parts);
+        model.error = libm::hypot(model.error, of.beyond);
         if of.low.is_empty() {
-            return own;
+            return model;
         }
         // The low-fidelity runs are independent: variances add up (the freedom after Welch and Satterthwaite).
-        let low = Self::new(&[&of.low], false).error_of_parts(&of.low);
-        let (a, b) = (own.error * own.error, low.error * low.error);
-        let freedom = (a + b).powi(2) / (a * a / own.freedom + b * b / low.freedom);
-        let freedom = if freedom.is_finite() { freedom } else { own.freedom.min(low.freedom) };
-        StandardError { error: libm::hypot(own.error, low.error), freedom }
+        let low = Self::new([&of.low], false).error_of_parts(&of.low);
+        let (a, b) = (model.error * model.error, low.error * low.error);
+        let freedom = (a + b).powi(2) / (a * a / model.freedom + b * b / low.freedom);
+        let freedom = if freedom.is_finite() { freedom } else { model.freedom.min(low.freedom) };
+        StandardError { error: libm::hypot(model.error, low.error), freedom }
     }
 
     /// Returns the standard error of the mean of influences (its freedom after Welch and Satterthwaite).
     pub fn error_of_parts(&self, parts: &PartInfluences) -> StandardError {
         let (within, between) = variances(parts);
         let direct = parts.len() as f64 - 1.0;
-        let own = direct / (PRIOR_FREEDOM + direct);
-        let variance = (1.0 - own) * self.common * within + own * between;
-        // own^2/direct, which is 0 for a single net.
-        let freedom = ((1.0 - own).powi(2) / self.common_freedom + own / (PRIOR_FREEDOM + direct)).recip();
+        let weight = direct / (PRIOR_FREEDOM + direct);
+        let variance = (1.0 - weight) * self.common * within + weight * between;
+        // weight^2/direct, which is 0 for a single net.
+        let freedom = ((1.0 - weight).powi(2) / self.common_freedom + weight / (PRIOR_FREEDOM + direct)).recip();
         StandardError { error: variance.sqrt(), freedom }
     }
 
     /// Returns the number with its interval.
-    pub fn estimate(&self, of: &Influenced) -> Estimate {
+    pub fn estimate(&self, of: &EstimateWithInfluences) -> Estimate {
         let (estimate, error) = (of.estimate, self.error(of));
-        let half = |concentration: f64| {
-            let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
-            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))
-        };
         // The influences of missing rows are like those of existing ones: if large positive ones are rare, they are
         // missing from an estimate that is too small.
-        let [low, high] = self.concentration.map(half);
+        let [low, high] = self.concentration.map(|concentration| {
+            let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
+            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))
+        });
         let interval = low.zip(high).map(|(low, high)| {
             let q = if self.skewed && estimate > 0.0 { (high / estimate).min(1.0) } else { 0.0 };
             let stretch = if q > 1e-9 { libm::expm1(q) / q } else { 1.0 };
@@ -162,17 +161,18 @@ impl Noise {
     }
 
     /// Returns the number with all that replaces a plain one.
-    pub(super) fn replacement(self, of: &Influenced) -> Replacement {
-        (self.estimate(of), self.error(of), of.parts.clone())
+    pub(super) fn judgement(self, of: &EstimateWithInfluences) -> Judgement {
+        Judgement::new(self.estimate(of), self.error(of), of.parts.clone())
     }
 }
 
 /// Returns the contributions of the points of every net as influences of up to 64 parts of each.
 pub fn in_parts(nets: &[Vec<f64>]) -> PartInfluences {
-    let of_net = |points: &Vec<f64>| {
-        let (count, parts) = (points.len(), points.len().min(PARTS));
-        let part = |k: usize| &points[k * count / parts..(k + 1) * count / parts];
-        (0..parts).map(part).map(|part| part.iter().sum::<f64>() / part.len() as f64).collect()
-    };
-    nets.iter().map(of_net).collect()
+    nets.iter().map(|points| means_of_parts(points)).collect()
+}
+
+fn means_of_parts(points: &[f64]) -> Vec<f64> {
+    let (count, parts) = (points.len(), points.len().min(PARTS));
+    let parts = (0..parts).map(|k| &points[k * count / parts..(k + 1) * count / parts]);
+    parts.map(|part| part.iter().sum::<f64>() / part.len() as f64).collect()
 }

@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Estimate, largest_half_width};
-
 /// Why corrected indices are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -109,17 +107,13 @@ pub struct SurrogateUse {
     pub is_doubted: bool,
     /// Why neither is corrected; `None` if the errors alone decide.
     pub refusal: Option<Refusal>,
-    /// The plain first-order indices of all swaps.
-    pub plain_first_order: Vec<Estimate>,
-    /// The plain total indices of all swaps.
-    pub plain_total: Vec<Estimate>,
     /// The low-fidelity model used with the surrogates, if there is one.
     pub low: Option<LowFidelityUse>,
 }
 
 impl SurrogateUse {
-    /// Returns the largest half width of the plain indices; `None` if one is unknown.
-    pub fn plain_half_width(&self) -> Option<f64> {
-        largest_half_width(self.plain_first_order.iter().chain(&self.plain_total).copied())
+    /// Returns whether indices are corrected, of one kind at least.
+    pub fn corrects(&self) -> bool {
+        self.corrects_first_order || self.corrects_total
     }
 }

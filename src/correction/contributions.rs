@@ -12,10 +12,10 @@
 //! that of g plus Jansen's estimate of f minus that of g, is better if g is poor; both are mixed by one weight. Every
 //! number is a mean over base points, so that the contributions of the points give the error.
 
-use super::fit::Expansion;
-use super::net::Net;
 use crate::design::Design;
-use crate::uncertainty::Layout;
+use crate::effect::Layout;
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::net::Net;
 
 /// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {
@@ -31,11 +31,19 @@ pub struct Contributions {
     pub mean: Vec<f64>,
     /// Mean square and mean fourth power of e, the part not explained by the surrogate.
     pub residual: (f64, f64),
-    /// For every swap, and for all factors last, the variance of the part of the surrogate that depends on them: by its
-    /// coefficients, and over the rows.
-    pub claims: Vec<[f64; 2]>,
+    /// For every swap, and for all factors last, the variance of the part of the surrogate that depends on them.
+    pub claims: Vec<Claim>,
     /// Rows.
     pub rows: usize,
+}
+
+/// The variance of a part of a surrogate.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Claim {
+    /// By its coefficients.
+    pub claimed: f64,
+    /// Over the rows.
+    pub shown: f64,
 }
 
 /// The effects whose numbers are corrected.
@@ -56,88 +64,109 @@ impl Effects {
 }
 
 /// Returns whether all factors of a term are in a swap.
-pub(super) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(crate) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
     !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
-pub(super) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(crate) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
 /// Returns whether a term has factors of two swaps, and none of others.
-pub(super) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
+pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
     let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
     touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
 }
 
 /// Returns the mean of a power over all columns.
-pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
+pub(crate) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
     columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
 }
 
 /// Returns the contribution of base point `p` to V S_jk by the outputs `y` of every run.
-pub(super) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize), p: usize) -> f64 {
+pub(crate) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize), p: usize) -> f64 {
     let (ab, ba) = (design.ab_runs(), design.ba_runs());
-    let product = |j: usize, k: usize| (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
-    (product(j, k) + product(k, j)) / 2.0
+    let of_jk = (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
+    let of_kj = (y[ba[k]][p] - y[1][p]) * (y[ab[j]][p] - y[0][p]);
+    (of_jk + of_kj) / 2.0
 }
 
 /// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
-pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+pub(crate) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut values = Vec::new();
     let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
     for (run, sums) in surrogate.iter_mut().enumerate() {
         for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
             net.fill(term, run, &mut values);
-            sums.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
+            add_multiple(sums, *b, &values);
         }
     }
-    let less = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - g).collect();
-    let e = net.outputs.iter().zip(&surrogate).map(less).collect();
+    let pairs = net.outputs.iter().zip(&surrogate);
+    let e = pairs.map(|(f, g)| f.iter().zip(g).map(|(f, g)| f - g).collect()).collect();
     (surrogate, e)
 }
 
+/// Adds `factor` times `values` to `sums`.
+fn add_multiple(sums: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}
+
 /// Computes [`Contributions::claims`].
-fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2]> {
-    let acts = |term: &[(usize, usize)], place: usize| {
-        !term.is_empty() && swaps.get(place).is_none_or(|swap| touches(term, swap))
-    };
-    let terms = || expansion.terms.iter().zip(&expansion.coefficients);
-    let mut sums = vec![[0.0; 2]; swaps.len() + 1];
+fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<Claim> {
+    let mut claims = vec![Claim::default(); swaps.len() + 1];
     let mut values = Vec::new();
+    let mut sums = vec![0.0; claims.len()];
+    let rows = (net.points() * net.runs()).max(1) as f64;
     for run in 0..net.runs() {
-        let mut parts = vec![vec![0.0; net.points()]; sums.len()];
-        for (term, b) in terms() {
+        let mut parts = vec![vec![0.0; net.points()]; claims.len()];
+        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
             net.fill(term, run, &mut values);
-            for (_, part) in parts.iter_mut().enumerate().filter(|(place, _)| acts(term, *place)) {
-                part.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
+            for (at, part) in parts.iter_mut().enumerate() {
+                if swaps.get(at).is_none_or(|swap| touches(term, swap)) {
+                    add_multiple(part, *b, &values);
+                    claims[at].claimed += if run == 0 { b * b } else { 0.0 };
+                }
             }
         }
-        for (sums, part) in sums.iter_mut().zip(&parts) {
-            part.iter().for_each(|value| *sums = [sums[0] + value, sums[1] + value * value]);
+        for ((claim, sum), part) in claims.iter_mut().zip(&mut sums).zip(&parts) {
+            for value in part {
+                (*sum, claim.shown) = (*sum + value, claim.shown + value * value);
+            }
         }
     }
-    let rows = (net.points() * net.runs()).max(1) as f64;
-    let claim = |(place, [sum, square]): (usize, &[f64; 2])| {
-        let claimed = terms().filter(|(term, _)| acts(term, place)).map(|(_, b)| b * b).sum();
-        [claimed, square / rows - (sum / rows).powi(2)]
-    };
-    sums.iter().enumerate().map(claim).collect()
+    for (claim, sum) in claims.iter_mut().zip(sums) {
+        claim.shown = claim.shown / rows - (sum / rows).powi(2);
+    }
+    claims
+}
+
+fn add(column: &mut [f64], value: &dyn Fn(usize) -> f64) {
+    for (p, sum) in column.iter_mut().enumerate() {
+        *sum += value(p);
+    }
+}
+
+/// Returns half the square by which run number `run` of point `p` differs from its row of A.
+pub(crate) fn half_square(y: &[Vec<f64>], run: usize, p: usize) -> f64 {
+    (y[0][p] - y[run][p]).powi(2) / 2.0
 }
 
 impl Contributions {
     /// Returns zero contributions to `effects` at the points of `net`.
-    pub(super) fn zeros(effects: &Effects, net: &Net) -> Self {
+    pub(crate) fn zeros(effects: &Effects, net: &Net) -> Self {
         let (swaps, pairs) = (effects.swaps.len(), effects.pairs.len());
         let points = net.points();
-        let columns = |count: usize| vec![vec![0.0; points]; count];
+        let zeros = vec![0.0; points];
+        let of_swaps = vec![zeros.clone(); swaps];
         Self {
-            first_order: columns(swaps),
-            total: [columns(swaps), columns(swaps)],
-            pairs: columns(pairs),
-            variance: vec![0.0; points],
-            mean: vec![0.0; points],
+            first_order: of_swaps.clone(),
+            total: [of_swaps.clone(), of_swaps],
+            pairs: vec![zeros.clone(); pairs],
+            variance: zeros.clone(),
+            mean: zeros,
             residual: (0.0, 0.0),
             claims: Vec::new(),
             rows: points * net.runs(),
@@ -163,10 +192,14 @@ impl Contributions {
             let mut products = vec![0.0; net.points()];
             for (run, e) in e.iter().enumerate() {
                 net.fill(term, run, &mut values);
-                products.iter_mut().zip(&values).zip(e).for_each(|((sum, value), e)| *sum += value * e);
+                for ((sum, value), e) in products.iter_mut().zip(&values).zip(e) {
+                    *sum += value * e;
+                }
             }
             if term.is_empty() {
-                self.mean.iter_mut().zip(&products).for_each(|(mean, e)| *mean += b + e / runs);
+                for (mean, e) in self.mean.iter_mut().zip(&products) {
+                    *mean += b + e / runs;
+                }
                 continue;
             }
             let contributions: Vec<f64> = products.iter().map(|sum| b * b + 2.0 * b * sum / runs).collect();
@@ -176,15 +209,12 @@ impl Contributions {
 
     /// Adds the contributions of a non-constant term at every point to the numbers to which it belongs, and to the
     /// second form of the total indices.
-    pub(super) fn add_term(
+    pub(crate) fn add_term(
         &mut self,
         Effects { swaps, pairs }: &Effects,
         term: &[(usize, usize)],
         [first, second]: [&dyn Fn(usize) -> f64; 2],
     ) {
-        let add = |column: &mut Vec<f64>, value: &dyn Fn(usize) -> f64| {
-            column.iter_mut().enumerate().for_each(|(p, sum)| *sum += value(p));
-        };
         add(&mut self.variance, first);
         for (number, swap) in swaps.iter().enumerate() {
             if within(term, swap) {
@@ -210,20 +240,23 @@ impl Contributions {
     }
 
     /// Multiplies all numbers.
-    pub(super) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale(&mut self, factor: f64) {
         self.columns_mut().flatten().for_each(|value| *value *= factor);
     }
 
     /// Appends the points that follow.
-    pub(super) fn append(&mut self, mut following: Self) {
+    pub(crate) fn append(&mut self, mut following: Self) {
         let (mine, theirs) = (self.rows as f64, following.rows as f64);
         let mean = |a: f64, b: f64| (mine * a + theirs * b) / (mine + theirs).max(1.0);
         let (two, four) = following.residual;
         self.residual = (mean(self.residual.0, two), mean(self.residual.1, four));
-        let claims = self.claims.iter_mut().zip(&following.claims);
-        claims.for_each(|([_, shown], [_, more])| *shown = mean(*shown, *more));
+        for (claim, more) in self.claims.iter_mut().zip(&following.claims) {
+            claim.shown = mean(claim.shown, more.shown);
+        }
         self.rows += following.rows;
-        self.columns_mut().zip(following.columns_mut()).for_each(|(column, more)| column.append(more));
+        for (column, more) in self.columns_mut().zip(following.columns_mut()) {
+            column.append(more);
+        }
     }
 
     /// Adds the terms that are quadratic in `e`, by pick-freeze.
@@ -240,7 +273,6 @@ impl Contributions {
         for (p, variance) in self.variance.iter_mut().enumerate() {
             *variance += e.iter().map(|run| (run[p] - of_all).powi(2)).sum::<f64>() / e.len() as f64;
         }
-        let half_square = |column: &[Vec<f64>], run: usize, p: usize| (column[0][p] - column[run][p]).powi(2) / 2.0;
         for swap in 0..swaps.len() {
             let ab = design.ab_runs()[swap];
             for p in 0..points {
@@ -251,7 +283,7 @@ impl Contributions {
         }
         // The swaps with pairs come first.
         for (column, &pair) in self.pairs.iter_mut().zip(pairs) {
-            column.iter_mut().enumerate().for_each(|(p, sum)| *sum += interaction(design, e, pair, p));
+            add(column, &|p| interaction(design, e, pair, p));
         }
     }
 }

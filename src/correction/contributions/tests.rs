@@ -10,6 +10,6 @@ fn rows_that_misrepresent_a_factor_have_less_variance_than_the_expansion() {
     let net = Net::of_rows(columns, vec![0.0; 100]);
     let expansion = Expansion { terms: vec![vec![], vec![(0, 1)], vec![(1, 1)]], coefficients: vec![7.0, 1.0, 0.5] };
     let claims = claims(&net, &expansion, &[vec![0], vec![1]]);
-    assert_eq!(claims.iter().map(|claim| claim[0]).collect::<Vec<_>>(), [1.0, 0.25, 1.25]);
-    assert!((claims[0][1] - 1.0).abs() < 1e-3 && (claims[1][1] * 400.0 - 0.25).abs() < 1e-3, "{claims:?}");
+    assert_eq!(claims.iter().map(|claim| claim.claimed).collect::<Vec<_>>(), [1.0, 0.25, 1.25]);
+    assert!((claims[0].shown - 1.0).abs() < 1e-3 && (claims[1].shown * 400.0 - 0.25).abs() < 1e-3, "{claims:?}");
 }

@@ -1,0 +1,39 @@
+//! What has indices in a study, by name.
+
+use super::Study;
+use crate::effect::Effect;
+use crate::space::Group;
+
+/// An effect with its name and its factors.
+pub(crate) struct StudyEffect {
+    pub effect: Effect,
+    /// The factor, the group, the factors of the subset joined by " + ", or "dummy".
+    pub name: String,
+    /// The indices of its factors, ascending.
+    pub factors: Vec<usize>,
+}
+
+impl Study {
+    /// Returns everything that has indices, in the order of the swaps of the design: factors (or groups in their place),
+    /// further groups, subsets, dummy.
+    pub(crate) fn effects(&self) -> Vec<StudyEffect> {
+        let noise = self.space.noise();
+        let mut effects = Vec::new();
+        for (number, Group { name, factors }) in self.analysis.members(&self.space).into_iter().enumerate() {
+            let effect = if noise == Some(number) { Effect::Noise } else { Effect::Factor(number) };
+            effects.push(StudyEffect { effect, name, factors });
+        }
+        for (number, Group { name, factors }) in self.analysis.further_groups(&self.space).into_iter().enumerate() {
+            effects.push(StudyEffect { effect: Effect::Group(number), name, factors });
+        }
+        for (number, factors) in self.analysis.subsets.iter().enumerate() {
+            let names: Vec<&str> = factors.iter().map(|&factor| self.space.factors()[factor].name.as_str()).collect();
+            let name = names.join(" + ");
+            effects.push(StudyEffect { effect: Effect::Subset(number), name, factors: factors.clone() });
+        }
+        if self.analysis.dummy {
+            effects.push(StudyEffect { effect: Effect::Dummy, name: "dummy".to_owned(), factors: Vec::new() });
+        }
+        effects
+    }
+}

@@ -1,0 +1,113 @@
+//! Estimates with all known facts about their errors.
+
+use super::by_points::Bounds;
+use super::concentration::{Side, interval};
+use super::influence::Influences;
+use super::method::IntervalMethod;
+use super::net_decay::{PartInfluences, StandardError};
+use super::unseen::Unseen;
+use super::{Estimate, Interval, NORMAL_QUANTILE};
+use crate::effect::{EffectQuantities, IndexPair, Kind};
+
+/// An estimate, its interval, its error, and the influences of the parts of the runs on it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Judgement {
+    pub estimate: Estimate,
+    pub error: StandardError,
+    pub parts: PartInfluences,
+    /// Whether its error is a bound on what the rows cannot show, since they show no spread.
+    pub is_bound: bool,
+}
+
+/// The behaviour of the errors of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ErrorKind {
+    /// Where the true value may be outside an interval if few rows dominate the quantity.
+    pub side: Side,
+    /// Whether it helps to determine how fast all errors decrease with the number of points.
+    pub is_pooled: bool,
+}
+
+impl ErrorKind {
+    /// Returns the behaviour of quantities of this kind: indices and their sums are sums of contributions of one sign.
+    pub fn of(kind: Kind) -> Self {
+        let side = if kind == Kind::Difference { Side::Both } else { Side::Above };
+        Self { side, is_pooled: kind == Kind::Index }
+    }
+}
+
+impl Judgement {
+    /// Returns the judgement of a number with this interval and error.
+    pub fn new(estimate: Estimate, error: StandardError, parts: PartInfluences) -> Self {
+        Self { estimate, error, parts, is_bound: false }
+    }
+
+    /// Computes errors of these kinds from the nets.
+    pub fn from_nets(influences: Influences, method: IntervalMethod, kinds: &[ErrorKind]) -> Vec<Self> {
+        let errors = method.errors(&influences.parts, kinds);
+        let mut judgements = Vec::with_capacity(errors.len());
+        for (((estimate, parts), error), kind) in
+            influences.whole.into_iter().zip(influences.parts).zip(errors).zip(kinds)
+        {
+            let interval = interval(estimate, error, &parts, kind.side);
+            judgements.push(Self::new(Estimate { estimate, interval }, error, parts));
+        }
+        judgements
+    }
+
+    /// Combines estimates with errors and intervals from elsewhere.
+    pub fn with_bounds(influences: Influences, bounds: Vec<Bounds>) -> Vec<Self> {
+        let numbers = influences.whole.into_iter().zip(influences.parts).zip(bounds);
+        numbers
+            .map(|((estimate, parts), (error, interval))| Self::new(Estimate { estimate, interval }, error, parts))
+            .collect()
+    }
+
+    /// Sets the error that the rows cannot show if no part has an influence, or if the nets agree to rounding.
+    pub fn allow_for_unseen(&mut self, unseen: Unseen) {
+        let estimate = self.estimate.estimate;
+        let is_equal = unseen.applies(&self.parts) || self.error.error <= unseen.rounding;
+        if unseen.half_width > 0.0 && estimate.is_finite() && self.error.error.is_finite() && is_equal {
+            self.estimate.interval = Some(Interval::about(estimate, unseen.half_width));
+            self.error.error = unseen.half_width / NORMAL_QUANTILE;
+            self.is_bound = true;
+        }
+    }
+
+    /// Extends the interval to the `full` value.
+    fn reach(&mut self, full: f64) {
+        let estimate = self.estimate.estimate;
+        if let Some(interval) = &mut self.estimate.interval {
+            *interval = Interval { low: interval.low.min(full), high: interval.high.max(full) };
+            self.error.error = self.error.error.max((full - estimate).abs() / NORMAL_QUANTILE);
+        }
+    }
+}
+
+impl EffectQuantities<Judgement> {
+    /// Bounds the first-order index from above only by the total index, and the interaction accordingly; returns by how
+    /// much the bound rises.
+    pub(crate) fn allow_for_half_seen(&mut self) -> f64 {
+        let (Some(total), Some(first)) = (self.total.estimate.interval, &mut self.first_order.estimate.interval) else {
+            return 0.0;
+        };
+        let more = total.high - first.high;
+        if more <= 0.0 {
+            return 0.0;
+        }
+        first.high = total.high;
+        if let Some(interaction) = &mut self.interaction.estimate.interval {
+            interaction.low -= more;
+        }
+        more
+    }
+
+    /// Extends the intervals of a factor whose columns of the two samples have the correlation `r`: for an output
+    /// monotone in the factor, rows that differ only in it show a part 1 - r, in all nets alike if r is.
+    pub(crate) fn allow_for_correlation(&mut self, r: f64) {
+        let IndexPair { first_order, total } = &mut self.shares;
+        for judgement in [&mut self.first_order, &mut self.total, first_order, total, &mut self.interaction] {
+            judgement.reach(judgement.estimate.estimate / (1.0 - r).max(f64::EPSILON));
+        }
+    }
+}
