@@ -238,7 +238,7 @@ impl Irreproducible {
 
 /// A warning with its sentence, as in JSON.
 #[derive(Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "WarningRecord"))]
 pub(super) struct WithText<'a> {
     #[serde(flatten)]
     warning: &'a Warning,
