@@ -16,8 +16,8 @@ impl FirstRows {
     pub fn new(design: &Design, most: u64) -> Self {
         let replicates = design.settings().replicates;
         let points = (most.min(SAMPLE) / replicates).max(1).min(design.points_per_replicate()) as usize;
-        let rows = |replicate: u64| design.first_points(replicate, points);
-        Self { factors: design.factors(), replicates: (0..replicates).map(rows).collect() }
+        let replicates = (0..replicates).map(|replicate| design.first_points(replicate, points));
+        Self { factors: design.factors(), replicates: replicates.collect() }
     }
 
     /// Iterates over coordinate `factor` of these rows: A and B of each base point in turn.
@@ -30,27 +30,27 @@ impl FirstRows {
 
     /// Returns the outputs of the same rows, NaN where a run failed; `samples` are those that each replicate has kept.
     pub fn outputs(&self, samples: &[Vec<f64>]) -> Vec<f64> {
-        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &Vec<f64>)| {
+        let mut all = Vec::new();
+        for (columns, outputs) in self.replicates.iter().zip(samples) {
             let rows = 2 * columns.first().map_or(0, Vec::len);
-            outputs.iter().copied().chain(std::iter::repeat(f64::NAN)).take(rows).collect::<Vec<f64>>()
-        };
-        self.replicates.iter().zip(samples).flat_map(of_replicate).collect()
+            all.extend(outputs.iter().copied().chain(std::iter::repeat(f64::NAN)).take(rows));
+        }
+        all
     }
 
     /// Returns the points of the unit cube of at most `most` of the rows A, the first of every replicate, with their
     /// outputs; failed runs are left out.
     pub fn first(&self, most: usize, samples: &[Vec<f64>]) -> Vec<(Vec<f64>, f64)> {
         let each = (most / self.replicates.len()).max(1);
-        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &Vec<f64>)| {
-            let row = |(point, y): (usize, &f64)| {
-                let u = columns[..self.factors].iter().filter_map(|column| column.get(point).copied());
-                (u.collect::<Vec<_>>(), *y)
-            };
-            let length = columns.first().map_or(0, Vec::len);
-            let rows = outputs.iter().step_by(2).take(each.min(length)).enumerate();
-            rows.map(row).filter(|(_, y)| y.is_finite()).collect::<Vec<_>>()
-        };
-        let mut rows: Vec<_> = self.replicates.iter().zip(samples).flat_map(of_replicate).collect();
+        let mut rows = Vec::new();
+        for (columns, outputs) in self.replicates.iter().zip(samples) {
+            let points = each.min(columns.first().map_or(0, Vec::len));
+            for (point, &y) in outputs.iter().step_by(2).take(points).enumerate() {
+                if y.is_finite() {
+                    rows.push((columns[..self.factors].iter().map(|column| column[point]).collect(), y));
+                }
+            }
+        }
         rows.truncate(most);
         rows
     }

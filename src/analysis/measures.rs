@@ -7,7 +7,7 @@ use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::given::{Column, MIN_ROWS, Measure, measures_of_rows};
 use crate::result::RunMeasures;
-use crate::space::{Factor, Space};
+use crate::space::Space;
 
 /// Maximum number of rows, over all replicates, used for other measures: the first of a run.
 pub const MAX_ROWS_OF_MEASURES: u64 = 1 << 12;
@@ -24,12 +24,13 @@ pub(super) struct MeasuredRows {
 impl MeasuredRows {
     pub fn new(design: &Design, space: &Space) -> Self {
         let rows = FirstRows::new(design, MAX_ROWS_OF_MEASURES / 2);
-        let known = space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
-        let column = |(number, factor): (usize, &Factor)| {
-            let values = rows.coordinates(number).map(|u| factor.distribution().quantile(u));
-            Column { name: factor.name.clone(), values: values.collect() }
-        };
-        let factors = known.map(column).collect();
+        let mut factors = Vec::new();
+        for (number, factor) in space.factors().iter().enumerate() {
+            if !factor.distribution().is_noise() {
+                let values = rows.coordinates(number).map(|u| factor.distribution().quantile(u));
+                factors.push(Column { name: factor.name.clone(), values: values.collect() });
+            }
+        }
         let DesignSettings { seed, sampler, .. } = *design.settings();
         Self { rows, factors, seed, independent: sampler == Sampler::Random }
     }
@@ -40,18 +41,21 @@ impl MeasuredRows {
     /// Points of nets and Latin hypercubes are more even than independent draws: permutations overestimate the effect
     /// of chance, so that only rows of random points have p-values. Intervals are a little wide on nets, but valid.
     pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
-        let outputs = self.rows.outputs(samples);
-        let has_value: Vec<bool> = outputs.iter().map(|y| y.is_finite()).collect();
-        let kept = |values: &[f64]| -> Vec<f64> {
-            values.iter().zip(&has_value).filter(|(_, has_value)| **has_value).map(|(value, _)| *value).collect()
-        };
-        let outputs = kept(&outputs);
+        let all = self.rows.outputs(samples);
+        let outputs = with_output(&all, &all);
         if outputs.len() < MIN_ROWS {
             return None;
         }
-        let of_factor = |column: &Column| Column { name: column.name.clone(), values: kept(&column.values) };
-        let inputs: Vec<Column> = self.factors.iter().map(of_factor).collect();
+        let inputs = self.factors.iter();
+        let inputs: Vec<Column> = inputs
+            .map(|Column { name, values }| Column { name: name.clone(), values: with_output(values, &all) })
+            .collect();
         let factors = measures_of_rows(&inputs, &outputs, wanted, self.seed, number as u64, self.independent).ok()?;
         Some(RunMeasures { rows: outputs.len(), factors })
     }
+}
+
+/// Returns the values of the rows whose output is a number.
+fn with_output(values: &[f64], outputs: &[f64]) -> Vec<f64> {
+    values.iter().zip(outputs).filter(|(_, y)| y.is_finite()).map(|(value, _)| *value).collect()
 }

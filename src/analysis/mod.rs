@@ -13,7 +13,6 @@ mod scatter;
 mod series;
 mod setup;
 mod stages;
-mod stop;
 mod surrogates;
 mod unlikely;
 mod warnings;
@@ -25,7 +24,6 @@ pub use output_indices::{EffectIndices, IntervalOptions, OutputIndices, output_i
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
 pub use setup::{study_setup, validity};
-pub(crate) use stop::{StopReason, Stopped};
 pub(crate) use surrogates::{interval_options, surrogates};
 pub use unlikely::unlikely_outputs;
 

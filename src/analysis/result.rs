@@ -11,20 +11,19 @@ use super::output::{OutputRows, output_result};
 use super::scatter::rows_of_scatter;
 use super::series::{series, single_outputs, together, together_records};
 use super::setup::{factor_record, study_record, validity};
-use super::stop::Stopped;
 use super::surrogates::Corrections;
 use crate::effect::Effect;
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, Model, RUNGS};
 use crate::result::{
-    AggregateRecord, EffortRecord, LowFidelityRuns, Provenance, RungRecord, StoppingRecord, StudyResult,
+    AggregateRecord, EffortRecord, LowFidelityRuns, Provenance, RungRecord, StopReason, StoppingRecord, StudyResult,
 };
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::IntervalMethod;
 
 /// Returns the result of a run; `stopped` is why a growing one ended.
-pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyResult {
+pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> StudyResult {
     let FinishedRun { study, model, design, replicates, low_fidelity, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
@@ -51,7 +50,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
         effort: effort(model, &whole),
         aggregate: aggregate(run),
         series,
-        stopping: stopped.map(|stopped| stopping(study, stopped)),
+        stopping: stopped.map(|reason| stopping(study, reason)),
         spending: None,
         low_fidelity: low_fidelity.iter().map(low_runs).collect(),
     }
@@ -66,11 +65,11 @@ fn low_runs(low: &LowFidelityTotals<'_>) -> LowFidelityRuns {
     }
 }
 
-fn stopping(study: &Study, stopped: &Stopped) -> StoppingRecord {
+fn stopping(study: &Study, reason: StopReason) -> StoppingRecord {
     let target = study.target;
     StoppingRecord {
-        reason: stopped.reason.to_string(),
-        target_met: stopped.target_met,
+        reason,
+        target_met: target.accuracy.map(|_| matches!(reason, StopReason::TargetMet { .. })),
         target_half_width: target.accuracy,
         budget_seconds: target.max_time,
         max_runs: target.max_runs,
@@ -89,7 +88,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
-        sampler: settings.sampler.name().to_owned(),
+        sampler: settings.sampler,
         base_samples: settings.base_samples,
         replicates: settings.replicates,
         plain_rows: design.plain_rows(),
@@ -99,8 +98,8 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         study_sha256: study.source.sha256.clone(),
         first_order_estimator: first_order.source().to_owned(),
         total_estimator: total.source().to_owned(),
-        interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
-        interval_method: options.intervals.name().to_owned(),
+        interval_method: (!alone).then_some(options.intervals),
+        resamples: (options.intervals == IntervalMethod::Percentile).then_some(options.resamples),
         threshold: options.threshold,
         model_files: study.subject.files().iter().map(|file| name_of(file)).collect(),
     }
@@ -119,17 +118,12 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
         return None;
     }
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
-    let (scaling, weighting) = match same_unit {
-        true => (Scaling::Plain, "each output counts by its variance (Gamboa et al. 2014)"),
-        false => {
-            (Scaling::Standardised, "each output is divided by its standard deviation first, since their units differ")
-        }
-    };
+    let weighting = if same_unit { Scaling::Plain } else { Scaling::Standardised };
     let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
-    let indices = together(run, places.into_iter(), scaling);
+    let indices = together(run, places.into_iter(), weighting);
     Some(AggregateRecord {
         outputs: names,
-        weighting: weighting.to_owned(),
+        weighting,
         indices: indices.as_ref().ok().map(|all| together_records(study, all, Effect::is_factor)),
         noise: indices.as_ref().ok().and_then(|all| together_records(study, all, |of| of == Effect::Noise).pop()),
         reason: indices.err().map(|undefined| undefined.to_string()),

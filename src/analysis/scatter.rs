@@ -13,7 +13,7 @@ const FACTORS: usize = 6;
 const POINTS: usize = 400;
 /// Slices of equal probability of a continuous factor.
 const SLICES: usize = 20;
-/// Maximum number of values of a discrete factor that are slices of their own.
+/// Maximum number of values of a discrete factor that get a slice each.
 const MAX_VALUES: usize = 50;
 /// Maximum number of base points for the means, over all replicates.
 const MAX_ROWS: u64 = 1 << 14;
@@ -38,24 +38,25 @@ pub(super) fn scatter_record(
     indices: &[IndexRecord],
 ) -> Option<ScatterRecord> {
     let factors = space.factors();
-    let known: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
-    let chosen: Vec<usize> = largest(indices).into_iter().map(|place| known[place]).collect();
+    let inputs: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
+    let chosen: Vec<usize> = largest(indices).into_iter().map(|place| inputs[place]).collect();
     let points = rows.first(POINTS, samples).into_iter().map(|(u, y)| {
         let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
         x.chain([unit.from_si(y)]).collect::<Vec<_>>()
     });
     let all = rows.outputs(samples);
-    let known: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
-    let (scaled, exponent) = rescaled(&known);
-    let means_of = |&factor: &usize| {
-        let known = rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
-        let rows: Vec<(f64, f64)> = known.map(|(u, _)| u).zip(scaled.iter().copied()).collect();
-        conditional_means(&factors[factor], unit, &rows, exponent)
-    };
+    let finite: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
+    let (scaled, exponent) = rescaled(&finite);
+    let mut conditional_means = Vec::with_capacity(chosen.len());
+    for &factor in &chosen {
+        let coordinates = rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
+        let rows: Vec<(f64, f64)> = coordinates.map(|(u, _)| u).zip(scaled.iter().copied()).collect();
+        conditional_means.push(means_over_slices(&factors[factor], unit, &rows, exponent));
+    }
     let record = ScatterRecord {
         factors: chosen.iter().map(|&factor| factors[factor].name.clone()).collect(),
         points: points.collect(),
-        conditional_means: chosen.iter().map(means_of).collect(),
+        conditional_means,
     };
     let numbers = record.points.iter().flatten();
     let means = record.conditional_means.iter();
@@ -71,57 +72,44 @@ fn largest(indices: &[IndexRecord]) -> Vec<usize> {
     order
 }
 
-/// The slices of the values of a factor: of equal probability, or one for each value.
-struct Slices<'a> {
-    distribution: &'a Distribution,
-    /// The medians of the slices.
-    middles: Vec<f64>,
-    is_by_value: bool,
-}
-
-impl<'a> Slices<'a> {
-    fn new(distribution: &'a Distribution) -> Self {
-        let values: Vec<f64> = match distribution {
-            Distribution::Constant(_) => vec![distribution.median()],
-            other => other.levels().unwrap_or_default().into_iter().map(|(value, _)| value).collect(),
-        };
-        let is_by_value = (1..=MAX_VALUES).contains(&values.len());
-        let equal = || (0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect();
-        Self { distribution, middles: if is_by_value { values } else { equal() }, is_by_value }
-    }
-
-    /// Returns the slice of a point of the unit interval.
-    fn number(&self, u: f64) -> usize {
-        let number = if self.is_by_value {
-            let value = self.distribution.quantile(u);
-            self.middles.partition_point(|v| *v < value)
-        } else {
-            (u * SLICES as f64) as usize
-        };
-        number.min(self.middles.len() - 1)
-    }
-}
-
-/// Computes means over slices; `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
-fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
-    let slices = Slices::new(factor.distribution());
-    let mut values = vec![Vec::new(); slices.middles.len()];
-    for (u, y) in rows {
-        values[slices.number(*u)].push(*y);
-    }
-    let in_unit = |y: f64| unit.from_si(libm::scalbn(y, exponent));
-    let bound = |values: &Vec<f64>, side: f64| {
-        let (n, mean) = (values.len() as f64, mean(values));
-        let error = (centred_product((values, mean), (values, mean)) / (n - 1.0) / n).sqrt();
-        (n > 1.0).then(|| in_unit(mean + side * QUANTILE * error))
+/// Returns the values of a discrete factor, if they are so few that each gets a slice.
+fn values_of_slices(distribution: &Distribution) -> Option<Vec<f64>> {
+    let values: Vec<f64> = match distribution {
+        Distribution::Constant(_) => vec![distribution.median()],
+        other => other.levels()?.into_iter().map(|(value, _)| value).collect(),
     };
-    ConditionalMeansRecord {
-        factor: factor.name.clone(),
-        x: slices.middles.to_vec(),
-        mean: values.iter().map(|values| (!values.is_empty()).then(|| in_unit(mean(values)))).collect(),
-        low: values.iter().map(|values| bound(values, -1.0)).collect(),
-        high: values.iter().map(|values| bound(values, 1.0)).collect(),
+    (1..=MAX_VALUES).contains(&values.len()).then_some(values)
+}
+
+/// Computes means over slices of equal probability, or over one for each value; `rows` are (coordinate, output times
+/// 2^-exponent), for outputs with a value.
+fn means_over_slices(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
+    let distribution = factor.distribution();
+    let by_value = values_of_slices(distribution);
+    let mut slices = vec![Vec::new(); by_value.as_ref().map_or(SLICES, Vec::len)];
+    let last = slices.len() - 1;
+    for &(u, y) in rows {
+        let slice = match &by_value {
+            Some(values) => {
+                let value = distribution.quantile(u);
+                values.partition_point(|v| *v < value)
+            }
+            None => (u * SLICES as f64) as usize,
+        };
+        slices[slice.min(last)].push(y);
     }
+    let medians = (0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64));
+    let x = by_value.unwrap_or_else(|| medians.collect());
+    let mut record = ConditionalMeansRecord { factor: factor.name.clone(), x, ..ConditionalMeansRecord::default() };
+    for values in &slices {
+        let (n, mean) = (values.len() as f64, mean(values));
+        let half = QUANTILE * (centred_product((values, mean), (values, mean)) / (n - 1.0) / n).sqrt();
+        let [mean, low, high] = [mean, mean - half, mean + half].map(|y| unit.from_si(libm::scalbn(y, exponent)));
+        record.mean.push((n > 0.0).then_some(mean));
+        record.low.push((n > 1.0).then_some(low));
+        record.high.push((n > 1.0).then_some(high));
+    }
+    record
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
 //! The question as recorded in results: the study, its factors, validity flags.
 
-use serde_json::Value;
-
 use crate::model::Flag;
-use crate::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, StudySetup, ValidityRecord};
-use crate::space::{Dependence, Factor};
+use crate::result::{
+    ConstantRecord, CorrelationRecord, FactorDistribution, FactorRecord, StudyRecord, StudySetup, ValidityRecord,
+};
+use crate::space::{Dependence, Distribution, Factor};
 use crate::study::Study;
 
 /// Returns the study as it was run.
 pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
-        asked: study_record(study),
+        study: study_record(study),
         factors: study.space.factors().iter().map(|factor| factor_record(study, factor)).collect(),
         sha256: study.source.sha256.clone(),
     }
@@ -36,10 +36,15 @@ pub(super) fn factor_record(study: &Study, factor: &Factor) -> FactorRecord {
         description: study.subject.meaning(&factor.name),
         unit: factor.unit().to_string(),
         group: factor.group.clone(),
-        // Serialisation fails only on maps without text keys, of which there are none.
-        distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
+        distribution: factor_distribution(factor.distribution()),
         nominal: factor.nominal,
     }
+}
+
+fn factor_distribution(distribution: &Distribution) -> FactorDistribution {
+    let parameters = distribution.parameters().into_iter();
+    let json = parameters.map(|(name, value)| (name.to_owned(), serde_json::to_value(value).unwrap_or_default()));
+    FactorDistribution { name: distribution.name().to_owned(), parameters: json.collect() }
 }
 
 /// Returns the record of a dependence.
@@ -47,18 +52,18 @@ fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
     CorrelationRecord {
         factors: dependence.factors().to_vec(),
         correlation: dependence.correlation().to_vec(),
-        measure: dependence.measure_in_force().name().to_owned(),
+        measure: dependence.measure_in_force(),
     }
 }
 
 /// Returns the validity flags with the number of the `runs` that have raised each.
 pub fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
-    let reported = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
-    let record = |(flag, raised): (&Flag, u64)| ValidityRecord {
+    let reported = raised.filter(|(flag, raised)| !flag.warns || *raised > 0);
+    let records = reported.map(|(flag, raised)| ValidityRecord {
         flag: flag.name.to_string(),
         description: flag.description.to_string(),
         runs: raised,
         share: raised as f64 / runs.max(1) as f64,
-    };
-    reported.map(record).collect()
+    });
+    records.collect()
 }

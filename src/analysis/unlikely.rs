@@ -15,23 +15,24 @@ pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<Unlikely>> {
         (0..design.settings().replicates).filter_map(|replicate| store.block(replicate, 0..rows)).collect();
     let model = study.model();
     let outputs = model.outputs();
-    let of_output = |(number, output): (usize, &Output)| {
+    let mut unlikely = Vec::with_capacity(outputs.len());
+    for (number, output) in outputs.iter().enumerate() {
         let values = blocks.iter().flat_map(|block| block.values.iter().skip(number).step_by(outputs.len()));
-        Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>())
-    };
-    outputs.iter().enumerate().map(of_output).collect()
+        unlikely.push(Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>()));
+    }
+    unlikely
 }
 
 /// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<Warning> {
     let values: Vec<f64> = samples.iter().flatten().map(|si| output.unit.from_si(*si)).collect();
-    let found = Unlikely::find(&values)?;
-    let (mut place, mut replicate) = (found.first, 0);
+    let unlikely = Unlikely::find(&values)?;
+    let (mut place, mut replicate) = (unlikely.first, 0);
     while place >= samples[replicate].len() {
         place -= samples[replicate].len();
         replicate += 1;
     }
     let point = replicate as u64 * design.points_per_replicate() + place as u64 / 2;
-    let text = found.in_runs((point * design.rows_per_point()) as usize + place % 2 + 1);
-    Some(Warning::Unlikely { text })
+    let first = (point * design.rows_per_point()) as usize + place % 2;
+    Some(Warning::UnlikelyValue(Unlikely { first, ..unlikely }))
 }

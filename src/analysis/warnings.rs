@@ -2,11 +2,11 @@
 
 use super::finished_run::FinishedRun;
 use super::output_indices::{EffectIndices, OutputIndices};
-use crate::correction::{Refusal, SurrogateUse};
+use crate::correction::Refusal;
 use crate::effect::Effect;
 use crate::estimate::{CentralMoments, Moments};
 use crate::model::Model;
-use crate::result::Warning;
+use crate::result::{IndexKind, Warning};
 use crate::run::Totals;
 use crate::study::{Study, StudyEffect};
 use crate::uncertainty::{EffectChecks, Estimate, Interval, IntervalMethod, differs_clearly};
@@ -30,27 +30,39 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, used: &Moments) -> Vec
     warnings
 }
 
-/// The codes of warnings that joint failures may cause.
-const CONSEQUENCES: [&str; 6] =
-    ["above-total", "contradictory", "formulas-differ", "first-order-above-one", "totals-below-one", "total-above-one"];
-
 /// Removes the advice to take more samples if indices contradict each other because of joint failures.
 pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
-    let is_cause = |warning: &Warning| matches!(warning, Warning::JointFailures { points, base_samples } if 1000 * points >= *base_samples);
-    if warnings.iter().any(is_cause) {
-        warnings.retain(|warning| !CONSEQUENCES.contains(&warning.code()));
+    use Warning::{AboveTotal, Contradictory, FirstOrderAboveOne, FormulasDiffer, TotalAboveOne, TotalsBelowOne};
+    if warnings.iter().any(fails_jointly) {
+        warnings.retain(|warning| {
+            !matches!(
+                warning,
+                AboveTotal { .. }
+                    | Contradictory { .. }
+                    | FormulasDiffer { .. }
+                    | FirstOrderAboveOne { .. }
+                    | TotalsBelowOne { .. }
+                    | TotalAboveOne { .. }
+            )
+        });
     }
 }
 
+/// Returns whether it says that runs fail jointly at a thousandth of the base points or more.
+fn fails_jointly(warning: &Warning) -> bool {
+    matches!(warning, Warning::JointFailures { points, base_samples } if 1000 * points >= *base_samples)
+}
+
 /// Returns warnings raised by the model.
-pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<Warning> {
-    let raised = model.flags().iter().zip(&whole.flags).filter(|(flag, runs)| flag.warns && **runs > 0);
-    let warning = |(flag, runs): (&crate::model::Flag, &u64)| Warning::ModelFlag {
-        flag: flag.name.to_string(),
-        description: flag.description.to_string(),
-        runs: *runs,
-    };
-    raised.map(warning).collect()
+pub(super) fn of_flags(model: &dyn Model, totals: &Totals) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (flag, &runs) in model.flags().iter().zip(&totals.flags) {
+        if flag.warns && runs > 0 {
+            let (flag, description) = (flag.name.to_string(), flag.description.to_string());
+            warnings.push(Warning::ModelFlag { flag, description, runs });
+        }
+    }
+    warnings
 }
 
 /// Effective number of rows of a variance below which it counts as dominated by few.
@@ -79,12 +91,13 @@ pub(super) fn of_digits(values: &CentralMoments) -> Option<Warning> {
 /// Returns a warning of discrete factors that depend on others: what is fixed is the normal score behind a value.
 fn of_dependent_steps(study: &Study) -> Option<Warning> {
     let space = study.space();
-    let depends =
-        |name: &str| space.dependences().iter().any(|dependence| dependence.factors().iter().any(|of| of == name));
-    let steps = space.factors().iter().filter(|factor| {
-        depends(&factor.name) && (factor.distribution().levels().is_some() || factor.distribution().is_whole())
-    });
-    let factors: Vec<String> = steps.map(|factor| factor.name.clone()).collect();
+    let mut factors = Vec::new();
+    for factor in space.factors() {
+        let depends = space.dependences().iter().any(|dependence| dependence.factors().contains(&factor.name));
+        if depends && (factor.distribution().levels().is_some() || factor.distribution().is_whole()) {
+            factors.push(factor.name.clone());
+        }
+    }
     (!factors.is_empty()).then_some(Warning::DependentSteps { factors })
 }
 
@@ -110,8 +123,8 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
         warnings.extend(is_poor.then_some(Warning::PoorSurrogate { explained: used.explained }));
     }
     // Corrected first-order indices do not depend on the formulas.
-    let is_corrected = |used: &SurrogateUse| used.corrects_first_order && !used.is_doubted && !used.is_heavy_tailed;
-    let is_corrected = indices.surrogate.as_ref().is_some_and(is_corrected);
+    let is_corrected = (indices.surrogate.as_ref())
+        .is_some_and(|used| used.corrects_first_order && !used.is_doubted && !used.is_heavy_tailed);
     warnings.extend(of_dependent_steps(study));
     let effects = study.effects();
     let noise = effects.iter().zip(&indices.effects).find(|(effect, _)| effect.effect == Effect::Noise);
@@ -163,8 +176,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
 /// Returns a warning of a noise that has no effect, or the whole effect.
 fn of_noise(name: &str, noise: &EffectIndices, mean_share: Option<Estimate>) -> Option<Warning> {
     let (factor, total) = (name.to_owned(), noise.estimates.total);
-    let none = |interval: Interval| interval.low == 0.0 && interval.high == 0.0;
-    if total.estimate == 0.0 && total.interval.is_none_or(none) {
+    if total.estimate == 0.0 && total.interval.is_none_or(|Interval { low, high }| low == 0.0 && high == 0.0) {
         return Some(Warning::NoNoise { factor });
     }
     mean_share?.interval.is_some_and(|share| share.low <= 0.0).then_some(Warning::AllNoise { factor })
@@ -174,14 +186,11 @@ fn of_noise(name: &str, noise: &EffectIndices, mean_share: Option<Estimate>) -> 
 fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (estimator, other) in study.analysis.estimators.iter().zip(&checks.others) {
-        for (index, gap) in [("first-order", other.first_order_gap), ("total", other.total_gap)] {
-            let gap = gap.filter(|gap| differs_clearly(*gap));
-            warnings.extend(gap.map(|Estimate { estimate: gap, .. }| Warning::EstimatorsDiffer {
-                name: name.to_owned(),
-                index,
-                estimator: estimator.name(),
-                gap,
-            }));
+        for (index, gap) in [(IndexKind::FirstOrder, other.first_order_gap), (IndexKind::Total, other.total_gap)] {
+            if let Some(gap) = gap.filter(|gap| differs_clearly(*gap)) {
+                let (name, estimator) = (name.to_owned(), estimator.name().to_owned());
+                warnings.push(Warning::EstimatorsDiffer { name, index, estimator, gap: gap.estimate });
+            }
         }
     }
     warnings
@@ -191,8 +200,9 @@ fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warnin
 fn looks_shuffled(indices: &OutputIndices) -> bool {
     const NEAR: f64 = 0.15;
     indices.inputs().count() > 1
-        && indices.inputs().all(|of| (of.estimates.total.estimate - 1.0).abs() < NEAR)
-        && indices.inputs().all(|of| of.estimates.first_order.estimate.abs() < NEAR)
+        && indices.inputs().all(|EffectIndices { estimates: of, .. }| {
+            (of.total.estimate - 1.0).abs() < NEAR && of.first_order.estimate.abs() < NEAR
+        })
 }
 
 /// Error of indices by rounding of the outputs above which a result has a warning.

@@ -7,6 +7,7 @@ use apportion_base::names::named;
 named! {
 /// Where the points of a design come from.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.

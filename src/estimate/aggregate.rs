@@ -1,9 +1,13 @@
 //! One set of indices for several outputs.
 
+use serde::{Deserialize, Serialize};
+
 use super::Undefined;
 
 /// How outputs are weighted against each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum Scaling {
     /// Unscaled: for outputs of one unit, such as the values of a curve. The weight of an output is its variance.
     Plain,

@@ -11,6 +11,7 @@ mod read;
 #[cfg(feature = "schema")]
 mod schema;
 mod setup;
+mod stopping;
 mod warning;
 
 use std::ops::Range;
@@ -26,9 +27,14 @@ pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use schema::result_schema;
 use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
-pub use warning::Warning;
+pub use stopping::{StopReason, StoppingRecord};
+pub use warning::{IndexKind, Irreproducible, Warning};
 
-use crate::space::IndicesOf;
+use crate::design::Sampler;
+use crate::estimate::Scaling;
+use crate::space::{CorrelationMeasure, IndicesOf};
+use crate::study::SurrogateChoice;
+use crate::uncertainty::IntervalMethod;
 
 /// The result of a run of a [`Study`](crate::Study).
 ///
@@ -61,8 +67,7 @@ pub struct StudyResult {
     pub study: StudyRecord,
     /// How the result was computed.
     pub provenance: Provenance,
-    /// What has indices of its own in the outputs.
-    #[serde(default)]
+    /// What has indices in the outputs: the factors, or the groups in place of their factors.
     pub indices_of: IndicesOf,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
@@ -71,22 +76,16 @@ pub struct StudyResult {
     /// Rows on which the model's assumptions do not hold; these rows still count.
     pub validity: Vec<ValidityRecord>,
     /// The effort of a model with a ladder of fidelities; `null` for other models.
-    #[serde(default)]
     pub effort: Option<EffortRecord>,
     /// Indices over all outputs together, if requested.
-    #[serde(default)]
     pub aggregate: Option<AggregateRecord>,
     /// The outputs that are series.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub series: Vec<SeriesRecord>,
     /// Why a growing run ended; `null` for one of fixed size.
-    #[serde(default)]
     pub stopping: Option<StoppingRecord>,
     /// The choices of a run with a target accuracy, and their reasons.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spending: Option<AccuracyRecord>,
     /// Low-fidelity models that were run in addition to the model.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub low_fidelity: Vec<LowFidelityRuns>,
 }
 
@@ -95,13 +94,10 @@ impl StudyResult {
     pub fn indexed_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for factor in &self.factors {
-            match &factor.group {
-                Some(group) if self.indices_of == IndicesOf::Groups => {
-                    if !names.contains(&group.as_str()) {
-                        names.push(group);
-                    }
-                }
-                _ => names.push(&factor.name),
+            let group = factor.group.as_ref().filter(|_| self.indices_of == IndicesOf::Groups);
+            let name = group.unwrap_or(&factor.name);
+            if group.is_none() || !names.contains(&name.as_str()) {
+                names.push(name);
             }
         }
         names
@@ -144,7 +140,6 @@ pub struct StudyRecord {
     /// The model's inputs that are fixed in the study, with their units.
     pub constants: Vec<ConstantRecord>,
     /// Factors that depend on each other.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dependences: Vec<CorrelationRecord>,
     /// Changes made on the command line, as given.
     pub overrides: Vec<String>,
@@ -160,8 +155,8 @@ pub struct CorrelationRecord {
     pub factors: Vec<String>,
     /// Their correlations.
     pub correlation: Vec<Vec<f64>>,
-    /// The kind of correlation, by its name in study files.
-    pub measure: String,
+    /// The kind of correlation.
+    pub measure: CorrelationMeasure,
 }
 
 /// An input fixed in the study.
@@ -187,13 +182,12 @@ pub struct Provenance {
     /// Seed of the design.
     pub seed: u64,
     /// Sampler of the design.
-    pub sampler: String,
+    pub sampler: Sampler,
     /// Total number of base points.
     pub base_samples: u64,
     /// Independent randomisations that share them.
     pub replicates: u64,
-    /// Runs of each base point at points of their own, used only to fit surrogates.
-    #[serde(default)]
+    /// Runs of each base point at separate points, used only to fit surrogates.
     pub plain_rows: u32,
     /// Runs of the model.
     pub model_runs: u64,
@@ -207,17 +201,21 @@ pub struct Provenance {
     pub first_order_estimator: String,
     /// Formula of the total indices.
     pub total_estimator: String,
-    /// A description of the intervals; `null` if there are none.
-    pub interval: Option<String>,
-    /// The kind of interval by its name in study files.
-    #[serde(default)]
-    pub interval_method: String,
+    /// The kind of interval; `null` if there are none.
+    pub interval_method: Option<IntervalMethod>,
+    /// Resamples of bootstrap intervals; `null` for other kinds.
+    pub resamples: Option<usize>,
     /// The total index above which a factor counts as important.
-    #[serde(default)]
     pub threshold: f64,
     /// The files of the model recorded in a journal: its runs are not used once one of these files has changed.
-    #[serde(default)]
     pub model_files: Vec<String>,
+}
+
+impl Provenance {
+    /// Describes the intervals in a sentence; `None` if there are none.
+    pub fn interval(&self) -> Option<String> {
+        self.interval_method.map(|method| method.words(self.replicates, self.resamples.unwrap_or_default()))
+    }
 }
 
 /// A factor.
@@ -227,16 +225,26 @@ pub struct FactorRecord {
     /// Its name.
     pub name: String,
     /// What it is, if the model says so.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
     /// The unit of its values.
     pub unit: String,
     /// Its group, if any.
     pub group: Option<String>,
-    /// Its distribution by name, with the parameters in `unit`.
-    pub distribution: serde_json::Value,
+    /// Its distribution.
+    pub distribution: FactorDistribution,
     /// Its nominal value in `unit`.
     pub nominal: f64,
+}
+
+/// The distribution of a factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FactorDistribution {
+    /// The name of its family in study files.
+    pub name: String,
+    /// The parameters in the unit of the factor, by their names in study files.
+    #[serde(flatten)]
+    pub parameters: serde_json::Map<String, serde_json::Value>,
 }
 
 /// Indices over several outputs together.
@@ -245,12 +253,11 @@ pub struct FactorRecord {
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
-    /// How outputs are weighted against each other, in words.
-    pub weighting: String,
+    /// How outputs are weighted against each other.
+    pub weighting: Scaling,
     /// One entry per factor; `null` if an output has no indices.
     pub indices: Option<Vec<PlainIndexRecord>>,
     /// The noise of a stochastic model, which is not a factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<PlainIndexRecord>,
     /// Why there are no indices.
     pub reason: Option<String>,
@@ -312,24 +319,10 @@ pub struct AccuracyRecord {
     pub plain_runs: Option<u64>,
     /// The reasons, in sentences.
     pub reasons: Vec<String>,
-    /// Lines of a study that repeat the run, to the bit, in place of `accuracy`.
-    pub lines: String,
-}
-
-/// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct StoppingRecord {
-    /// The reason in words.
-    pub reason: String,
-    /// Whether every index met the target; `null` if there was none.
-    pub target_met: Option<bool>,
-    /// The requested half width.
-    pub target_half_width: Option<f64>,
-    /// The maximum time, in seconds.
-    pub budget_seconds: Option<f64>,
-    /// The maximum number of model runs.
-    pub max_runs: Option<u64>,
+    /// The choice of surrogates with which a study of the same design repeats the run.
+    pub surrogate: SurrogateChoice,
+    /// Number of low-fidelity models that the study states.
+    pub stated_low_fidelity: usize,
 }
 
 /// The effort of a model with a ladder of fidelities.

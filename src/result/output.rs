@@ -4,9 +4,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
 
+#[cfg(feature = "schema")]
+use super::warning::WithText;
+use super::warning::{Warning, with_texts};
 use super::{
     EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OutputDistribution, PairRecord, PlainIndexRecord,
-    SubsetRecord, SurrogateRecord, Warning,
+    SubsetRecord, SurrogateRecord,
 };
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
@@ -31,7 +34,7 @@ pub struct OutputResult {
     pub runs_ok: u64,
     /// Runs without a value.
     pub runs_failed: u64,
-    /// Minimum number of base points of any estimate: each uses those at which its own runs have a value.
+    /// Minimum number of base points of any estimate: each uses those at which its runs have a value.
     pub base_points_used: u64,
     /// Why runs failed.
     pub failures: Vec<FailureCount>,
@@ -44,43 +47,32 @@ pub struct OutputResult {
     /// One entry per group; `null` if indices are undefined.
     pub groups: Option<Vec<GroupRecord>>,
     /// One entry per subset that the study lists; `null` if indices are undefined.
-    #[serde(default)]
     pub subsets: Option<Vec<SubsetRecord>>,
     /// Indices of a factor without effect, if one was added: the noise of the model.
-    #[serde(default)]
     pub dummy: Option<EffectEstimates>,
     /// The noise of a stochastic model, which is not a factor, and the indices of the mean over it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
-    /// Other measures of influence, if requested; absent if the output does not vary, or too few runs succeeded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Other measures of influence, if requested; `null` if the output does not vary, or too few runs succeeded.
     pub measures: Option<RunMeasures>,
     /// Second-order indices of all pairs of factors, if requested.
-    #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,
     /// Indices by the other estimators that the study lists.
-    #[serde(default)]
     pub estimators: Vec<EstimatorRecord>,
     /// The use of surrogates; `null` without any.
-    #[serde(default)]
     pub surrogate: Option<SurrogateRecord>,
     /// The gain by surrogates in a trial, if one decided on them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub surrogate_trial: Option<SurrogateTrial>,
     /// The indices and their intervals at stages of the run, without surrogates.
-    #[serde(default)]
     pub convergence: Vec<StageRecord>,
     /// The distribution of its values; `null` if no run succeeded, or if a number exceeds double precision.
-    #[serde(default)]
     pub distribution: Option<DistributionRecord>,
     /// Its relation to its most influential factors; `null` without indices, or if a number exceeds double precision.
-    #[serde(default)]
     pub scatter: Option<ScatterRecord>,
     /// Why there are no indices, if there are none.
     pub reason: Option<String>,
-    /// Warnings: in JSON the sentences in `warnings`, and their codes in `warning_codes`.
-    #[serde(flatten, with = "super::warning")]
-    #[cfg_attr(feature = "schema", schemars(with = "super::warning::WarningKeys"))]
+    /// Why its numbers may be wrong, or less accurate than they look.
+    #[serde(serialize_with = "with_texts")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<'static>>"))]
     pub warnings: Vec<Warning>,
 }
 
@@ -115,11 +107,10 @@ impl OutputResult {
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {
-        let missing = || LookupError::NoIndices {
+        indices.ok_or_else(|| LookupError::NoIndices {
             output: self.name.clone(),
             reason: self.reason.clone().unwrap_or_else(|| "they were not estimated".to_owned()),
-        };
-        indices.ok_or_else(missing)
+        })
     }
 }
 
@@ -130,12 +121,11 @@ pub(super) fn find<'a, T>(
     all: &'a [T],
     name_of: impl Fn(&T) -> &String,
 ) -> Result<&'a T, LookupError> {
-    let unknown = || LookupError::UnknownName {
+    all.iter().find(|one| name_of(one) == name).ok_or_else(|| LookupError::UnknownName {
         what,
         name: name.to_owned(),
-        known: all.iter().map(|one| name_of(one).clone()).collect(),
-    };
-    all.iter().find(|one| name_of(one) == name).ok_or_else(unknown)
+        existing: all.iter().map(|one| name_of(one).clone()).collect(),
+    })
 }
 
 /// The distribution of the values of an output, from the rows A and B.
@@ -178,7 +168,7 @@ pub struct ScatterRecord {
 
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConditionalMeansRecord {
     /// The factor.
@@ -237,22 +227,10 @@ pub struct RunMeasures {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LookupError {
-    /// The name is unknown.
-    #[error("there is no {what} `{name}`; there are: {known}", known = known.join(", "))]
-    UnknownName {
-        /// The kind of the name.
-        what: &'static str,
-        /// The name.
-        name: String,
-        /// The existing names.
-        known: Vec<String>,
-    },
+    /// The name of an output, factor or other part (`what`) is unknown.
+    #[error("there is no {what} `{name}`; there are: {}", existing.join(", "))]
+    UnknownName { what: &'static str, name: String, existing: Vec<String> },
     /// The output has no indices.
     #[error("output `{output}` has no indices: {reason}")]
-    NoIndices {
-        /// The output.
-        output: String,
-        /// The cause.
-        reason: String,
-    },
+    NoIndices { output: String, reason: String },
 }

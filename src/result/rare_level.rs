@@ -1,12 +1,14 @@
 //! A level of a factor that is rare among the rows of a design.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Number of pairs of levels of two factors in the rows A, B, A_B and B_A of a base point.
 pub(crate) const PAIRS_OF_POINT: u64 = 4;
 
 /// A level of a factor that is rare among the rows, or two that rarely occur together.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[error(
     "{factor}: {level} (probability {probability:.2e}) occurs in {} of the {values} {} drawn, so its effect on the \
      output is unknown and the indices may be far off: about {:.0} base samples contain it once, and {:.0} ten times",

@@ -18,7 +18,7 @@ pub struct RunFacts {
 pub struct StudySetup {
     /// The question.
     #[serde(flatten)]
-    pub asked: StudyRecord,
+    pub study: StudyRecord,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
     /// SHA-256 of the study file on disk, in hexadecimal.
@@ -29,7 +29,7 @@ impl std::ops::Deref for StudySetup {
     type Target = StudyRecord;
 
     fn deref(&self) -> &StudyRecord {
-        &self.asked
+        &self.study
     }
 }
 

@@ -1,61 +1,42 @@
-//! Warnings about results: their kinds, codes and words.
+//! Warnings about results: their kinds, numbers and words.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 use super::RareLevel;
+use apportion_base::names::named;
+use apportion_base::quantity::Unlikely;
 
-/// Why numbers of an output may be wrong, or less accurate than they look.
-#[derive(Debug, Clone, Error)]
+/// Why numbers of an output may be wrong, or less accurate than they look. In JSON the kind is the key `code`, a name that
+/// does not change, followed by the fields and the sentence as `text`.
+#[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
     /// No run has a value.
     #[error("all {runs} runs failed")]
-    AllRunsFailed {
-        /// The runs.
-        runs: u64,
-    },
-    /// Some runs have no value.
+    AllRunsFailed { runs: u64 },
+    /// Some runs have no value; an index leaves out at most `left_out` base points.
     #[error(
         "{failed} of {runs} runs failed: every index leaves out the base points at which one of its own runs failed (at \
          most {left_out} of {base_samples}), and describes the part of the factor space where runs succeed"
     )]
-    RunsFailed {
-        /// Runs without a value.
-        failed: u64,
-        /// All runs.
-        runs: u64,
-        /// Maximum number of base points that an index leaves out.
-        left_out: u64,
-        /// All base points.
-        base_samples: u64,
-    },
-    /// Runs fail because of several factors together.
+    RunsFailed { failed: u64, runs: u64, left_out: u64, base_samples: u64 },
+    /// Runs fail because of several factors together: at some base points rows A and B succeed and another row does not.
     #[error(
         "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
          succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
          and more runs cannot define these indices there; narrow the ranges until no run fails, study an output \
-         that is 1 where a run fails and 0 elsewhere, or pass the rows that succeed (--save-outputs) to given-data"
+         that is 1 where a run fails and 0 elsewhere, or analyse the rows that succeed as given data"
     )]
-    JointFailures {
-        /// Base points whose rows A and B succeeded, and another row did not.
-        points: u64,
-        /// All base points.
-        base_samples: u64,
-    },
-    /// The points of a replicate are not a power of two.
+    JointFailures { points: u64, base_samples: u64 },
+    /// The points of a replicate are not a power of two; `fewer` or `more` base samples would be.
     #[error(
         "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
          base_samples = {fewer} or {more} would be better"
     )]
-    Unbalanced {
-        /// Base points of a replicate.
-        points: u64,
-        /// The next smaller good number of base samples.
-        fewer: u64,
-        /// The next larger one.
-        more: u64,
-    },
+    Unbalanced { points: u64, fewer: u64, more: u64 },
     /// One replicate, and intervals from the spread of replicates.
     #[error("one replicate gives no estimate of its error: no intervals")]
     SingleReplicate,
@@ -65,39 +46,22 @@ pub enum Warning {
          safer)"
     )]
     SingleNet,
-    /// The model raised a flag that warns.
+    /// The model raised a flag that warns, in `runs` runs.
     #[error("{flag} ({}): {description}", if *runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") })]
-    ModelFlag {
-        /// The flag.
-        flag: String,
-        /// What it means.
-        description: String,
-        /// Runs that raised it.
-        runs: u64,
-    },
-    /// A few rows dominate the variance.
+    ModelFlag { flag: String, description: String, runs: u64 },
+    /// A few rows dominate the variance: `rows` would have it if all other values of A and B had no effect.
     #[error(
         "few rows determine the variance, as if {rows:.0} of the {values} of A and B did (excess kurtosis {kurtosis:.0}): rows \
          with values as large may be missing from the sample, so intervals are longer above the estimates than below and may still \
          be too short; use more base samples, or the logarithm of the output"
     )]
-    FewRows {
-        /// Number of rows that would have this variance if all others had no effect.
-        rows: f64,
-        /// Rows A and B.
-        values: u64,
-        /// Excess kurtosis of the values.
-        kurtosis: f64,
-    },
-    /// The output is large compared with its variation.
+    FewRows { rows: f64, values: u64, kurtosis: f64 },
+    /// The output is large compared with its variation; `error` is that of the indices.
     #[error(
         "the output is so much larger than its variation that doubles keep few digits of the variation: indices may be off by about \
          {error:.1e}; subtract a constant from it before it is rounded"
     )]
-    FewDigits {
-        /// Error of the indices.
-        error: f64,
-    },
+    FewDigits { error: f64 },
     /// Intervals do not exist.
     #[error(
         "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so \
@@ -116,38 +80,34 @@ pub enum Warning {
          likely: the intervals contain both"
     )]
     DoubtedSurrogate,
-    /// Corrected indices contradict plain ones, which are reported.
+    /// Corrected indices contradict plain ones, which are reported; `times` is their distance relative to both errors.
     #[error(
         "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
          allow: the rows do not represent a factor, so the plain ones are reported"
     )]
-    ContradictedSurrogate {
-        /// The distance relative to both errors.
-        times: f64,
-    },
+    ContradictedSurrogate { times: f64 },
     /// Surrogates claim more variance than the rows show; the plain indices are reported.
     #[error(
         "the surrogates give a factor {times:.1} times the variance that the rows show: the rows do not represent it, so \
          the plain indices are reported"
     )]
     InflatedSurrogate {
-        /// The variance claimed over that of the rows.
+        /// The variance claimed over that of the rows; `null` for infinity.
+        #[serde(deserialize_with = "or_infinity")]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         times: f64,
     },
     /// A level of a factor is rare among the rows.
     #[error("{0}")]
     RareLevel(RareLevel),
-    /// Rows for surrogates that explain little.
+    /// Rows for surrogates that explain little of the variance; `explained` is its share.
     #[error(
         "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so plain rows, which only \
          surrogates use, help little: use all runs as base samples for this output; errors and intervals may \
          be too small here",
         (100.0 * explained).max(0.0)
     )]
-    PoorSurrogate {
-        /// Share of the variance that they explain.
-        explained: f64,
-    },
+    PoorSurrogate { explained: f64 },
     /// Discrete factors depend on others.
     #[error(
         "{}: discrete values that depend on other factors: fixing the factor means fixing the normal score behind its value, \
@@ -155,39 +115,23 @@ pub enum Warning {
          partners too small",
         factors.join(", ")
     )]
-    DependentSteps {
-        /// The factors.
-        factors: Vec<String>,
-    },
-    /// The noise has no effect.
+    DependentSteps { factors: Vec<String> },
+    /// The noise, whose seed is `factor`, has no effect.
     #[error("{factor}: no run changed with its seed: the model is not stochastic, or does not use the seed")]
-    NoNoise {
-        /// The seed.
-        factor: String,
-    },
+    NoNoise { factor: String },
     /// The noise may have the whole effect.
     #[error(
         "{factor}: all variance may be noise, so the indices of the mean over it may be far off: use more base samples, \
-         or several runs of each row (repetitions in [noise])"
+         or several runs of each row (repetitions)"
     )]
-    AllNoise {
-        /// The seed.
-        factor: String,
-    },
-    /// A first-order index exceeds its total index.
+    AllNoise { factor: String },
+    /// The first-order index of a factor, group or subset exceeds its total index.
     #[error(
         "{name}: the first-order index {} exceeds the total index {} beyond the error of their difference: too few samples",
         decimals(*first_order),
         decimals(*total)
     )]
-    AboveTotal {
-        /// Factor, group or subset.
-        name: String,
-        /// Its first-order index.
-        first_order: f64,
-        /// Its total index.
-        total: f64,
-    },
+    AboveTotal { name: String, first_order: f64, total: f64 },
     /// The same by the intervals of both.
     #[error(
         "{name}: the interval of the first-order index {} was above that of the total index {}, and both were extended until \
@@ -195,40 +139,20 @@ pub enum Warning {
         decimals(*first_order),
         decimals(*total)
     )]
-    Contradictory {
-        /// Factor, group or subset.
-        name: String,
-        /// Its first-order index.
-        first_order: f64,
-        /// Its total index.
-        total: f64,
-    },
-    /// Two formulas disagree.
+    Contradictory { name: String, first_order: f64, total: f64 },
+    /// Two formulas for the first-order index disagree.
     #[error(
         "{name}: two formulas for the first-order index differ by {gap:.2e}, beyond the error of their difference: too few \
          samples, or a heavy-tailed output (its logarithm may work better)"
     )]
-    FormulasDiffer {
-        /// Factor, group or subset.
-        name: String,
-        /// The difference.
-        gap: f64,
-    },
+    FormulasDiffer { name: String, gap: f64 },
     /// A requested estimator disagrees with the default one.
     #[error(
-        "{name}: the {index} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
-         difference: one of the two is wrong for this output"
+        "{name}: the {} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
+         difference: one of the two is wrong for this output",
+        index.name()
     )]
-    EstimatorsDiffer {
-        /// Factor, group or subset.
-        name: String,
-        /// `first-order` or `total`.
-        index: &'static str,
-        /// The estimator.
-        estimator: &'static str,
-        /// The difference.
-        gap: f64,
-    },
+    EstimatorsDiffer { name: String, index: IndexKind, estimator: String, gap: f64 },
     /// First-order indices that may sum to 0.
     #[error(
         "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; shares \
@@ -237,124 +161,99 @@ pub enum Warning {
     NoFirstOrder,
     /// First-order indices sum to more than 1.
     #[error("the first-order indices sum to {sum:.4}, beyond 1 by more than their error: too few samples")]
-    FirstOrderAboveOne {
-        /// Their sum.
-        sum: f64,
-    },
+    FirstOrderAboveOne { sum: f64 },
     /// Total indices below 1.
     #[error("the total indices sum to {sum:.4}, below 1 by more than their error: too few samples")]
-    TotalsBelowOne {
-        /// Their sum.
-        sum: f64,
-    },
+    TotalsBelowOne { sum: f64 },
     /// A total index above 1.
     #[error(
         "{name}: the total index {total:.4} is above 1 by more than its error: too few samples, or rows in the wrong \
          order"
     )]
-    TotalAboveOne {
-        /// Factor, group or subset.
-        name: String,
-        /// Its total index.
-        total: f64,
-    },
+    TotalAboveOne { name: String, total: f64 },
     /// Rows of a table that may be in the wrong order.
     #[error(
         "every total index is near 1 and every first-order index near 0, as if the rows were not in the order of the \
          design; if the order is right, the output is interaction only"
     )]
     Shuffled,
-    /// A value that may be a code for a missing one.
-    #[error("{text}")]
-    Unlikely {
-        /// The value and its place.
-        text: String,
-    },
-    /// Repeated rows gave different outputs.
-    #[error("{text}")]
-    Irreproducible {
-        /// How many, and why.
-        text: String,
-    },
-    /// A warning of a result that was read from a file.
-    #[error("{text}")]
-    Recorded {
-        /// Its code.
-        code: String,
-        /// Its sentence.
-        text: String,
-    },
+    /// An output of the runs that may be a code for a missing one; `first` is the index of the run.
+    #[error("{}", .0.in_runs(.0.first + 1))]
+    UnlikelyValue(Unlikely),
+    /// The same in a table of outputs; `first` is the index of the row.
+    #[error("{}", .0.in_table(.0.first + 1))]
+    UnlikelyInTable(Unlikely),
+    /// Repeated rows gave different outputs; `has_noise` is whether the model gets a seed with every row.
+    #[error(
+        "{differing} of {rows} {} run again gave other outputs: {} (docs/stochastic-models.md)",
+        if *rows == 1 { "row that was" } else { "rows that were" },
+        cause.explanation(*has_noise)
+    )]
+    Irreproducible { differing: u64, rows: u64, cause: Irreproducible, has_noise: bool },
 }
 
-/// Warnings are equal if their texts are: those read from a file are equal to those that were written.
-impl PartialEq for Warning {
-    fn eq(&self, other: &Self) -> bool {
-        self.code() == other.code() && self.to_string() == other.to_string()
-    }
-}
-
-/// The keys of the warnings of an output in JSON.
+named! {
+/// The first-order or the total index.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct WarningKeys {
-    /// The warnings in sentences.
-    warnings: Vec<String>,
-    /// The kind of each warning, a stable name.
-    #[serde(default)]
-    warning_codes: Vec<String>,
+#[serde(rename_all = "kebab-case")]
+pub enum IndexKind {
+    /// The first-order index.
+    FirstOrder = "first-order",
+    /// The total index.
+    Total = "total",
+}
 }
 
-/// Writes warnings as [`WarningKeys`].
-pub(super) fn serialize<S: Serializer>(all: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
-    let warnings = all.iter().map(Warning::to_string).collect();
-    let warning_codes = all.iter().map(|warning| warning.code().to_owned()).collect();
-    WarningKeys { warnings, warning_codes }.serialize(serializer)
+/// Why a model does not return the same output for the same row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Irreproducible {
+    /// New workers that evaluate the same rows in the same order differ: the model draws random numbers.
+    Random,
+    /// New workers agree with each other but not with the run: the model depends on earlier rows.
+    Remembers,
 }
 
-/// Reads warnings from [`WarningKeys`]; those of the first versions have no codes.
-pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Warning>, D::Error> {
-    let WarningKeys { warnings, warning_codes } = WarningKeys::deserialize(deserializer)?;
-    let codes = warning_codes.into_iter().chain(std::iter::repeat(String::new()));
-    Ok(warnings.into_iter().zip(codes).map(|(text, code)| Warning::Recorded { code, text }).collect())
-}
-
-impl Warning {
-    /// Returns a stable name of the kind of warning, as in the result file.
-    pub fn code(&self) -> &str {
-        match self {
-            Self::AllRunsFailed { .. } => "all-runs-failed",
-            Self::RunsFailed { .. } => "runs-failed",
-            Self::JointFailures { .. } => "joint-failures",
-            Self::Unbalanced { .. } => "unbalanced",
-            Self::SingleReplicate => "single-replicate",
-            Self::SingleNet => "single-net",
-            Self::ModelFlag { .. } => "model-flag",
-            Self::FewRows { .. } => "few-rows",
-            Self::FewDigits { .. } => "few-digits",
-            Self::NoIntervals => "no-intervals",
-            Self::HeavyTailedSurrogate => "heavy-tailed-surrogate",
-            Self::DoubtedSurrogate => "doubted-surrogate",
-            Self::ContradictedSurrogate { .. } => "contradicted-surrogate",
-            Self::InflatedSurrogate { .. } => "inflated-surrogate",
-            Self::RareLevel(_) => "rare-level",
-            Self::PoorSurrogate { .. } => "poor-surrogate",
-            Self::DependentSteps { .. } => "dependent-steps",
-            Self::NoNoise { .. } => "no-noise",
-            Self::AllNoise { .. } => "all-noise",
-            Self::AboveTotal { .. } => "above-total",
-            Self::Contradictory { .. } => "contradictory",
-            Self::FormulasDiffer { .. } => "formulas-differ",
-            Self::EstimatorsDiffer { .. } => "estimators-differ",
-            Self::NoFirstOrder => "no-first-order",
-            Self::FirstOrderAboveOne { .. } => "first-order-above-one",
-            Self::TotalsBelowOne { .. } => "totals-below-one",
-            Self::TotalAboveOne { .. } => "total-above-one",
-            Self::Shuffled => "shuffled",
-            Self::Unlikely { .. } => "unlikely-value",
-            Self::Irreproducible { .. } => "irreproducible",
-            Self::Recorded { code, .. } => code,
+impl Irreproducible {
+    /// Returns what it means for the indices, and what to do.
+    fn explanation(self, has_noise: bool) -> &'static str {
+        match (self, has_noise) {
+            (Self::Random, false) => {
+                "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
+                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
+            }
+            (Self::Random, true) => {
+                "the model draws random numbers without its seed, and the indices of the factors include their noise"
+            }
+            (Self::Remembers, _) => {
+                "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
+                 one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
+                 values only, with random numbers from a seed of its row (noise = \"seed\")"
+            }
         }
     }
+}
+
+/// A warning with its sentence, as in JSON.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "WarningRecord"))]
+pub(super) struct WithText<'a> {
+    #[serde(flatten)]
+    warning: &'a Warning,
+    /// The warning in a sentence.
+    text: String,
+}
+
+/// Writes warnings with their sentences, which are ignored when they are read.
+pub(super) fn with_texts<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(warnings.iter().map(|warning| WithText { warning, text: warning.to_string() }))
+}
+
+/// Reads a number that is `null` if it is infinite.
+fn or_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 /// Formats an index in a warning: four decimals, or three digits if it is smaller.

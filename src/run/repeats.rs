@@ -4,6 +4,7 @@ use super::shard::quotient;
 use super::{Job, RowValues, RunError, Store};
 use crate::design::Design;
 use crate::model::{Batch, RunContext};
+use crate::result::{Irreproducible, Warning};
 
 /// One in this many runs is repeated, up to the maximum number of rows.
 const RUNS_PER_REPEAT: u64 = 100;
@@ -25,39 +26,12 @@ pub struct Repeats {
     pub cause: Option<Irreproducible>,
 }
 
-/// Why a model does not return the same output for the same row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Irreproducible {
-    /// New workers that evaluate the same rows in the same order differ: the model draws random numbers.
-    Random,
-    /// New workers agree with each other but not with the run: the model depends on earlier rows.
-    Remembers,
-}
-
 impl Repeats {
-    /// Returns a warning about an output of which `differing` rows changed, with what to do; `None` if none changed.
-    /// `has_noise` is whether the model gets a seed with every row.
-    pub fn warning(&self, differing: u64, has_noise: bool) -> Option<String> {
+    /// Returns a warning about an output of which `differing` rows changed; `None` if none changed. `has_noise` is whether
+    /// the model gets a seed with every row.
+    pub fn warning(&self, differing: u64, has_noise: bool) -> Option<Warning> {
         let cause = self.cause.filter(|_| differing > 0)?;
-        let why = match (cause, has_noise) {
-            (Irreproducible::Random, false) => {
-                "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
-                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
-            }
-            (Irreproducible::Random, true) => {
-                "the model draws random numbers without its seed, and the indices of the factors include their noise"
-            }
-            (Irreproducible::Remembers, _) => {
-                "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
-                 one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
-                 values only, with random numbers from a seed of its row (noise = \"seed\")"
-            }
-        };
-        let rows = if self.rows == 1 { "row that was" } else { "rows that were" };
-        Some(format!(
-            "{differing} of {} {rows} run again gave other outputs: {why} (docs/stochastic-models.md)",
-            self.rows
-        ))
+        Some(Warning::Irreproducible { differing, rows: self.rows, cause, has_noise })
     }
 }
 

@@ -8,10 +8,9 @@
 
 use super::Runner;
 use super::low_fidelity::sibling_path;
-use crate::analysis::StopReason;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows};
 use crate::model::RunContext;
-use crate::result::{AccuracyRecord, StudyResult};
+use crate::result::{AccuracyRecord, StopReason, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice};
 use crate::uncertainty::largest_half_width;
@@ -199,7 +198,8 @@ impl AccuracySearch<'_> {
             runs: self.earlier_runs + result.provenance.model_runs,
             plain_runs: plain_runs(&study, &result, accuracy),
             reasons: self.reasons,
-            lines: lines(&study, self.runner.study.low_fidelities.len(), &result),
+            surrogate: study.analysis.surrogate,
+            stated_low_fidelity: self.runner.study.low_fidelities.len(),
         });
         if let Some(stopping) = &mut result.stopping {
             // The limit of the study, not that of the step.
@@ -207,26 +207,6 @@ impl AccuracySearch<'_> {
         }
         result
     }
-}
-
-/// Returns the lines of a study with a number of low-fidelity models that repeat the run of `study`, its variant.
-fn lines(study: &Study, low_fidelity: usize, result: &StudyResult) -> String {
-    let provenance = &result.provenance;
-    let mut lines = match provenance.plain_rows {
-        0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
-        _ => format!("[design]\nruns = {}\n", provenance.model_runs),
-    };
-    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", study.analysis.surrogate.name()));
-    if let [low] = &result.low_fidelity[..] {
-        lines.push_str("[fidelity]\n");
-        lines.push_str(&match low_fidelity {
-            0 => format!("low = [\"{}\"]\n", low.name),
-            1 => String::new(),
-            _ => format!("# keep only `{}` in `low`\n", low.name),
-        });
-        lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
-    }
-    lines
 }
 
 /// Returns the smallest share of the variance of an output that surrogates explain.

@@ -2,9 +2,10 @@
 
 use super::low_fidelity::LowFidelityRun;
 use crate::analysis::{IntervalOptions, output_indices};
-use crate::analysis::{StopReason, Stopped, enough_base_samples, interval_options, rare_levels, surrogates};
+use crate::analysis::{enough_base_samples, interval_options, rare_levels, surrogates};
 use crate::correction::{ErrorShares, SurrogateEstimates};
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
+use crate::result::StopReason;
 use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, KeptPoints};
@@ -18,7 +19,7 @@ const MIN_BASE_SAMPLES: u64 = 1 << 12;
 const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a growing run stopped, and the surrogate estimates of every output.
-pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+pub(super) type Grown = (StopReason, Vec<Option<SurrogateEstimates>>);
 
 /// Maximum number of base samples to which a run grows for the rare levels of factors.
 const MAX_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
@@ -148,7 +149,7 @@ impl Growth<'_> {
     }
 
     /// Returns why the run should stop; `None` if it should be doubled again.
-    fn reason_to_stop(&self, stage: &Stage) -> Option<Stopped> {
+    fn reason_to_stop(&self, stage: &Stage) -> Option<StopReason> {
         let Self { study, run, .. } = self;
         let (longest, widest) = (run.design(), stage.widest);
         let Target { accuracy, max_time, max_runs } = study.target;
@@ -164,7 +165,7 @@ impl Growth<'_> {
         let is_met = stage.is_checked && accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
         let design = is_met.then(|| longest.with_points(run.points_per_replicate()).ok()).flatten();
         let rare = design.map_or_else(Vec::new, |design| rare_levels(&study.space, &design));
-        let reason = match (accuracy, widest) {
+        Some(match (accuracy, widest) {
             (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
             (Some(target), Some(widest)) if is_met && rare.is_empty() => StopReason::TargetMet { widest, target },
             (Some(_), Some(widest)) if enough_base_samples(&rare) > MAX_FOR_RARE_LEVELS => {
@@ -174,13 +175,13 @@ impl Growth<'_> {
             _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
             _ if run.room_for(next).is_err() => StopReason::Memory,
             _ => match (max_runs, max_time) {
-                (Some(most), _) if runs > u128::from(most) => StopReason::MaxRuns { runs, most },
+                (Some(most), _) if runs > u128::from(most) => {
+                    StopReason::MaxRuns { runs: u64::try_from(runs).unwrap_or(u64::MAX), most }
+                }
                 (_, Some(budget)) if seconds > budget => StopReason::Budget { seconds, budget },
                 _ => return None,
             },
-        };
-        let target_met = accuracy.map(|_| matches!(reason, StopReason::TargetMet { .. }));
-        Some(Stopped { reason, target_met })
+        })
     }
 
     /// Returns whether more runs failed than an output with indices may have.
@@ -195,8 +196,8 @@ impl Growth<'_> {
     }
 }
 
-fn meets_target(stopped: &Stopped) -> bool {
-    matches!(stopped.reason, StopReason::TargetMet { .. })
+fn meets_target(reason: &StopReason) -> bool {
+    matches!(reason, StopReason::TargetMet { .. })
 }
 
 /// The accuracy of the indices at a stage of a run.

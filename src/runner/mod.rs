@@ -17,9 +17,9 @@ use journal::RunJournal;
 use low_fidelity::{LowFidelityRun, LowFidelityStudy};
 pub use worker::{Requests, WorkerStudy};
 
-use crate::analysis::{FinishedRun, LowFidelityTotals, StopReason, result};
+use crate::analysis::{FinishedRun, LowFidelityTotals, result};
 use crate::model::{Messages, RunContext};
-use crate::result::{StudyResult, Warning};
+use crate::result::{StopReason, StudyResult};
 use crate::run::{
     GrowingRun, Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows, threads_in_force,
 };
@@ -327,14 +327,13 @@ impl<'a> Runner<'a> {
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
-        let mut result = run.install(|| result(&finished, stopped.as_ref()));
+        let mut result = run.install(|| result(&finished, stopped));
         let evaluated = evaluated.load(Ordering::Relaxed);
         if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
             for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
-                let text = repeats.warning(*differing, study.space.noise().is_some());
-                output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
+                output.warnings.extend(repeats.warning(*differing, study.space.noise().is_some()));
             }
         }
-        Ok((result, stopped.map(|stopped| stopped.reason)))
+        Ok((result, stopped))
     }
 }

@@ -4,6 +4,7 @@ mod nataf;
 
 use nalgebra::DMatrix;
 use nataf::of_normal_scores;
+use serde::{Deserialize, Serialize};
 
 use super::copula::GaussianCopula;
 use super::distribution::Distribution;
@@ -22,7 +23,9 @@ fn refused<T>(reason: impl Into<String>) -> Result<T, DependenceError> {
 
 named! {
 /// The kind of a correlation.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum CorrelationMeasure {
     /// Of the values themselves: Pearson's. Normal scores get the correlation that leads to it (Nataf's model, Liu and
     /// Der Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), computed by quadrature to about 1e-6 for continuous

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
+
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, proper_subsets};
 use crate::given::Measure;
@@ -126,7 +128,9 @@ impl AnalysisOptions {
 named! {
     /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are exact, so
     /// that the runs only need to estimate the remainder ([`crate::surrogate`]).
-    #[derive(Default)]
+    #[derive(Default, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "kebab-case")]
     pub enum SurrogateChoice {
         /// Never.
         Off = "off",

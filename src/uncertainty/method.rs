@@ -4,9 +4,13 @@ use super::judgement::ErrorKind;
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
 use apportion_base::names::named;
+use serde::{Deserialize, Serialize};
 
 named! {
 /// How the error of an estimate is computed.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum IntervalMethod {
     /// From few long scrambled nets: their spread, and the decay of the error inside them.
     Nets = "nets",

@@ -145,7 +145,7 @@ fn every_sampler_finds_the_same_indices() {
         let result = analysed("ishigami", &[&format!("design.sampler={sampler}")]);
         let (first, total) = numbers(&result.outputs[0]);
         assert!(gap(&first, &exact.0).max(gap(&total, &exact.1)) < 0.025, "{sampler}");
-        assert_eq!(result.provenance.sampler, sampler);
+        assert_eq!(result.provenance.sampler.name(), sampler);
     }
 }
 

@@ -133,7 +133,7 @@ fn an_accuracy_is_kept_and_its_lines_make_the_same_run_again() {
     }
     let mut lines: Vec<String> = Vec::new();
     let mut table = "";
-    for line in spending.lines.lines() {
+    for line in apportion_report::lines_to_repeat(&first).unwrap().lines() {
         match line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
             Some(name) => table = name,
             None => lines.extend(["--set".to_owned(), format!("{table}.{}", line.replace(' ', ""))]),

@@ -21,7 +21,7 @@ const LEFT_OUT: [&str; 3] = ["convergence", "distribution", "scatter"];
 const WITH_UNIT: [&str; 5] = ["mean", "variance", "mean_interval", "variance_interval", "effort"];
 
 /// Texts for people, which may change.
-const WORDS: [&str; 3] = ["warnings", "reason", "description"];
+const WORDS: [&str; 3] = [".text", ".reason", ".description"];
 
 /// Estimates from the runs only, without the correction by surrogates.
 const PLAIN: &str = "analysis.surrogate=\"off\"";
@@ -83,7 +83,7 @@ fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut
         }
         _ if held == found => (),
         // Words may change; numbers must stay.
-        (Value::String(_), Value::String(_)) if WORDS.iter().any(|key| at.contains(key)) => (),
+        (Value::String(_), Value::String(_)) if WORDS.iter().any(|key| at.ends_with(key)) => (),
         _ => into.push(format!("{at}: {held} before, {found} now")),
     }
 }

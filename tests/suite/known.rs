@@ -95,9 +95,8 @@ fn a_constant_output_has_a_reason_instead_of_indices() {
 fn factors_have_their_own_distributions_and_other_inputs_are_fixed() {
     let some =
         analysed("model = \"flood\"\n[[factor]]\nname = \"Hd\"\n[[factor]]\nname = \"Q\"\ngroup = \"river\"\n", &[]);
-    let names: Vec<_> =
-        some.factors.iter().map(|factor| (&*factor.name, factor.distribution["name"].clone())).collect();
-    assert_eq!(names, [("Hd", "uniform".into()), ("Q", "truncated-gumbel".into())]);
+    let names: Vec<_> = some.factors.iter().map(|factor| (&*factor.name, &*factor.distribution.name)).collect();
+    assert_eq!(names, [("Hd", "uniform"), ("Q", "truncated-gumbel")]);
     let mixed = "model = \"sobol-g\"\n[function]\na = [0, 1, 2]\n[[factor]]\nname = \"x3\"\nmin = 0.25\nmax = 0.5\n[[factor]]\nname = \"x1\"";
     let study = apportion_files::parse_study(mixed, Path::new("mixed.toml"), &[]).unwrap();
     assert_eq!(study.constants(), [("x2".to_owned(), 0.75, "1".to_owned())]);

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use apportion::study::{AnalysisOptions, Study, StudyBuilder, SurrogateChoice};
-use apportion::{Distribution, Estimate, RepeatedModel, Sampler, StudyResult, function_model};
+use apportion::{Distribution, Estimate, RepeatedModel, Sampler, StudyResult, Warning, function_model};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::common::{Folder, apportion, effects, stderr, succeed, text};
@@ -95,7 +95,7 @@ fn without_noise_all_is_as_without_it() {
     };
     let (silent, without) = (of(Distribution::seed()), of(Distribution::uniform(0.0, 1.0).unwrap()));
     let [silent, without] = [&silent, &without].map(|analysis| analysis.outputs[0].clone());
-    assert!(silent.warnings.iter().any(|warning| warning.code() == "no-noise"), "{:?}", silent.warnings);
+    assert!(silent.warnings.iter().any(|warning| matches!(warning, Warning::NoNoise { .. })), "{:?}", silent.warnings);
     let [factors, of_others] = [&silent, &without].map(effects);
     for (a, b) in factors.iter().zip(&of_others) {
         assert_eq!((a.first_order, a.total, a.share_total), (b.first_order, b.total, b.share_total));
@@ -128,7 +128,7 @@ fn rows_of_a_factor_share_the_noise_of_their_point() {
     let output = &analysis.outputs[0];
     assert!(effects(output).iter().all(|factor| factor.total.estimate == 0.0), "{:?}", output.indices);
     assert!((output.noise.as_ref().unwrap().effect.total.estimate - 1.0).abs() < 0.1);
-    assert!(output.warnings.iter().any(|warning| warning.code() == "all-noise"), "{:?}", output.warnings);
+    assert!(output.warnings.iter().any(|warning| matches!(warning, Warning::AllNoise { .. })), "{:?}", output.warnings);
 }
 
 /// The variance over the noise is x3^2: of its estimate by 8 runs, (1/5)(9/7) - 1/9 is the variance, of which the variance
@@ -241,7 +241,8 @@ fn a_run_distinguishes_random_programs_from_programs_with_state() {
         let out = folder.path("out");
         succeed(&["run", text(&study), "--restart", "--charts", "none", "--out", text(&out)]);
         let result = apportion::result::read_result(&out.join("s.json")).unwrap();
-        let warnings = result.outputs[0].warnings.iter().filter(|warning| warning.code() == "irreproducible");
+        let warnings =
+            result.outputs[0].warnings.iter().filter(|warning| matches!(warning, Warning::Irreproducible { .. }));
         let warnings: Vec<String> = warnings.map(ToString::to_string).collect();
         assert_eq!(warnings.len(), usize::from(is_random), "{draws}: {warnings:?}");
         messages.add(draws, &warnings.concat());

@@ -17,6 +17,7 @@ pub mod screening;
 mod study_sections;
 pub mod sweep;
 mod text_table;
+mod wording;
 
 pub use artefacts::{ArtefactError, Artefacts, Written};
 pub use atomic_write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};
@@ -30,3 +31,4 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs
 pub use run_document::{TRY, one_output, run_document};
 pub use study_sections::inputs;
 pub use text_table::{TextTable, table};
+pub use wording::lines_to_repeat;

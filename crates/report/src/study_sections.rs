@@ -1,7 +1,10 @@
 //! The sections and sentences that the documents of runs, screenings and sweeps share: validity of the model, and the
 //! study.
 
-use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, StudyResult, ValidityRecord};
+use apportion::CorrelationMeasure;
+use apportion::result::{
+    ConstantRecord, CorrelationRecord, FactorDistribution, FactorRecord, StudyRecord, StudyResult, ValidityRecord,
+};
 use apportion_base::text::listed;
 use serde_json::{Map, Value};
 
@@ -71,11 +74,11 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     }
     parts.push(rows.into());
     if !study.dependences.is_empty() {
-        let measure = |record: &CorrelationRecord| match &*record.measure {
-            "pearson" => "of the values (Pearson)",
-            "spearman" => "of the ranks (Spearman)",
-            "kendall" => "of the ranks (Kendall)",
-            _ => "of the normal scores",
+        let measure = |record: &CorrelationRecord| match record.measure {
+            CorrelationMeasure::Pearson => "of the values (Pearson)",
+            CorrelationMeasure::Spearman => "of the ranks (Spearman)",
+            CorrelationMeasure::Kendall => "of the ranks (Kendall)",
+            CorrelationMeasure::Normal => "of the normal scores",
         };
         let pairs = study.dependences.iter().flat_map(|record| {
             let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
@@ -103,17 +106,14 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
 }
 
 /// Describes a distribution: its name, then its parameters with the unit.
-fn distribution(distribution: &Value, symbol: &str) -> String {
-    let Value::Object(keys) = distribution else { return "unknown".to_owned() };
-    let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
-    let parameters = keys.iter().filter(|(key, _)| *key != "name");
-    let parameter = |(key, json): (&String, &Value)| format!("{} {}", key.replace('_', " "), plain(json));
-    let parameters: Vec<String> = parameters.map(parameter).collect();
+fn distribution(FactorDistribution { name, parameters }: &FactorDistribution, symbol: &str) -> String {
+    let parameters = parameters.iter().map(|(key, json)| format!("{} {}", key.replace('_', " "), plain(json)));
+    let parameters: Vec<String> = parameters.collect();
     let unit = match symbol {
         "" | "1" => String::new(),
         symbol => format!(" ({})", unit(symbol)),
     };
-    if parameters.is_empty() { family.to_owned() } else { format!("{family}, {}{unit}", parameters.join(", ")) }
+    if parameters.is_empty() { name.clone() } else { format!("{name}, {}{unit}", parameters.join(", ")) }
 }
 
 /// Formats a value of JSON for a reader.

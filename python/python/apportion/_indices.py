@@ -177,7 +177,7 @@ class OutputResult(Shown):
     @property
     def warnings(self) -> list[str]:
         """Warnings about the indices."""
-        return self.record["warnings"]
+        return [warning["text"] for warning in self.record["warnings"]]
 
     @property
     def reason(self) -> str | None:

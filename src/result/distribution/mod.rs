@@ -50,7 +50,7 @@ pub struct QuantileRecord {
 /// It covers the range from the smallest to the largest value, but at most 6 interquartile ranges beyond the quartiles:
 /// otherwise a few far values would leave all others in one bin. They are counted in `below` and `above`. The width is
 /// that of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or if the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and
-/// at least a hundredth of the whole.
+/// at least a hundredth of that range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Histogram {
@@ -139,10 +139,14 @@ fn moments(values: &[f64]) -> [f64; 4] {
     let n = values.len() as f64;
     let mean = mean(values);
     let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
-    let moment = |k: i32| centred.iter().map(|c| c.powi(k)).sum::<f64>() / n;
-    let m2 = moment(2);
+    let m2 = moment(&centred, 2);
     let sd = libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent);
-    [mean, sd, moment(3) / libm::pow(m2, 1.5), moment(4) / (m2 * m2) - 3.0]
+    [mean, sd, moment(&centred, 3) / libm::pow(m2, 1.5), moment(&centred, 4) / (m2 * m2) - 3.0]
+}
+
+/// Returns the central moment of order `k` of values less their mean.
+fn moment(centred: &[f64], k: i32) -> f64 {
+    centred.iter().map(|c| c.powi(k)).sum::<f64>() / centred.len() as f64
 }
 
 /// Returns the histogram of a sorted sample that varies with this standard deviation, in the scale of its values.

@@ -8,15 +8,18 @@ use apportion_base::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
 /// A key, and the error there.
 type Fault = (String, String);
 
+fn require(holds: bool, key: String, problem: &str) -> Result<(), Fault> {
+    if holds { Ok(()) } else { Err((key, problem.to_owned())) }
+}
+
 /// Checks conditions that the types of the keys do not express.
 pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
-    file_name("study.name", &result.study.name, LONGEST_STUDY_NAME)?;
+    file_name("study", &result.study.name, LONGEST_STUDY_NAME)?;
     for (place, output) in result.outputs.iter().enumerate() {
-        let key = format!("outputs[{place}]");
-        file_name(&format!("{key}.name"), &output.name, LONGEST_NAME)?;
-        if result.outputs[..place].iter().any(|other| other.name == output.name) {
-            return Err((format!("{key}.name"), format!("the output {:?} is listed twice", output.name)));
-        }
+        let (key, name) = (format!("outputs[{place}]"), &output.name);
+        file_name(&key, name, LONGEST_NAME)?;
+        let is_first = result.outputs[..place].iter().all(|other| other.name != *name);
+        require(is_first, format!("{key}.name"), &format!("the output {name:?} is listed twice"))?;
         if let Some(indices) = &output.indices {
             of_factors(&key, result, indices.iter().map(|index| &index.factor))?;
         }
@@ -26,35 +29,28 @@ pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
 
 /// Checks that the values of a series are outputs, and that each has a position.
 fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), Fault> {
-    file_name(&format!("{key}.name"), &series.name, LONGEST_NAME)?;
-    let end = series.first_output.checked_add(series.positions.len()).filter(|end| *end <= result.outputs.len());
-    let rise = series.positions.windows(2).all(|pair| pair[0] < pair[1]);
-    if end.is_none() || series.positions.is_empty() || !rise {
-        let problem = "expected rising numbers, one for each output from number `first_output` on";
-        return Err((format!("{key}.positions"), problem.to_owned()));
-    }
-    match &series.indices {
-        None => Ok(()),
-        Some(indices) => of_factors(key, result, indices.iter().map(|index| &index.factor)),
-    }
+    file_name(key, &series.name, LONGEST_NAME)?;
+    let (first, positions) = (series.first_output, &series.positions);
+    let are_outputs = first.checked_add(positions.len()).is_some_and(|end| end <= result.outputs.len());
+    let rise = !positions.is_empty() && positions.windows(2).all(|pair| pair[0] < pair[1]);
+    let problem = "expected rising numbers, one for each output from number `first_output` on";
+    require(are_outputs && rise, format!("{key}.positions"), problem)?;
+    series.indices.iter().try_for_each(|all| of_factors(key, result, all.iter().map(|index| &index.factor)))
 }
 
 /// Checks that there is an index for each factor.
 fn of_factors<'a>(key: &str, result: &StudyResult, names: impl Iterator<Item = &'a String>) -> Result<(), Fault> {
+    let is_each = !result.factors.is_empty() && names.map(String::as_str).eq(result.indexed_names());
     let problem = "expected one entry for each of the factors, in their order, or null";
-    let is_each = names.map(String::as_str).eq(result.indexed_names());
-    if is_each && !result.factors.is_empty() { Ok(()) } else { Err((format!("{key}.indices"), problem.to_owned())) }
+    require(is_each, format!("{key}.indices"), problem)
 }
 
 /// Checks a name used in file names (those of the study and its outputs): it must not lead to another folder.
-fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
-    let leads_away = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
-    if name.is_empty() || name.chars().count() > most || name.contains(leads_away) {
-        let problem =
-            format!("files are named after it, so it cannot be {name:?}: expected a short name without / \\ :");
-        return Err((key.to_owned(), problem));
-    }
-    Ok(())
+fn file_name(key: &str, name: &str, max_length: usize) -> Result<(), Fault> {
+    let leads_away = name.contains(|c: char| matches!(c, '/' | '\\' | ':') || c.is_control());
+    let problem = format!("files are named after it, so it cannot be {name:?}: expected a short name without / \\ :");
+    let names_file = !leads_away && !name.is_empty() && name.chars().count() <= max_length;
+    require(names_file, format!("{key}.name"), &problem)
 }
 
 /// Largest count: up to this, sums of a few counts, and the counts as numbers, are exact.

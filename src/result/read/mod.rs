@@ -33,28 +33,17 @@ pub enum ReadProblem {
     /// It is not JSON, or not this JSON; line and column are in the message.
     #[error("not a result of `apportion run`: {0}")]
     Malformed(#[from] serde_json::Error),
-    /// It is JSON of another kind.
+    /// It is JSON of another kind, which it states as its format.
     #[error(
-        "not a result of `apportion run`: its \"format\" is {found:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
+        "not a result of `apportion run`: its \"format\" is {stated:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
     )]
-    Format {
-        /// The format that it states.
-        found: String,
-    },
+    Format { stated: String },
     /// It comes from a later version of the program.
-    #[error("format version {found} is unknown: this program reads version {VERSION}")]
-    Version {
-        /// The version that it states.
-        found: u32,
-    },
-    /// It is inconsistent.
+    #[error("format version {stated} is unknown: this program reads version {VERSION}")]
+    Version { stated: u32 },
+    /// It is inconsistent at `key`, such as `outputs[0].scatter`.
     #[error("`{key}`: {problem}")]
-    Incoherent {
-        /// The place in the file, as in `outputs[0].scatter`.
-        key: String,
-        /// The inconsistency.
-        problem: String,
-    },
+    Incoherent { key: String, problem: String },
 }
 
 /// The header of every file of this program.
@@ -70,8 +59,8 @@ struct Header {
 /// [`ReadError`] with what is wrong: a file that cannot be read, that is not JSON or JSON of another kind, an unknown
 /// version of the format, or inconsistent parts.
 pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
-    let read = || parse_result(&read_whole(path)?);
-    read().map_err(|problem| ReadError { path: path.to_owned(), problem })
+    let parsed = read_whole(path).map_err(ReadProblem::from).and_then(|json| parse_result(&json));
+    parsed.map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 
 /// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Unknown keys of later versions are ignored.
@@ -94,14 +83,15 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
 pub fn parse_result(json: &[u8]) -> Result<StudyResult, ReadProblem> {
     let Header { format, version } = serde_json::from_slice(json)?;
     if format != FORMAT {
-        return Err(ReadProblem::Format { found: format });
+        return Err(ReadProblem::Format { stated: format });
     }
     if version != VERSION {
-        return Err(ReadProblem::Version { found: version });
+        return Err(ReadProblem::Version { stated: version });
     }
     let result = serde_json::from_slice(json)?;
-    let incoherent = |(key, problem)| ReadProblem::Incoherent { key, problem };
-    coherence::counts(&serde_json::from_slice(json)?, "").map_err(incoherent)?;
-    coherence::check(&result).map_err(incoherent)?;
+    let counts = coherence::counts(&serde_json::from_slice(json)?, "");
+    counts
+        .and_then(|()| coherence::check(&result))
+        .map_err(|(key, problem)| ReadProblem::Incoherent { key, problem })?;
     Ok(result)
 }

@@ -17,6 +17,7 @@ fn examples() -> Vec<Warning> {
         draws: 0,
         values: 256,
     };
+    let unlikely = Unlikely { value: -9999.0, count: 14, first: 2, of: 640, others: (0.5, 2.25) };
     vec![
         Warning::AllRunsFailed { runs: 640 },
         Warning::RunsFailed { failed: 12, runs: 640, left_out: 9, base_samples: 128 },
@@ -40,30 +41,38 @@ fn examples() -> Vec<Warning> {
         Warning::AboveTotal { name: text("a"), first_order: 0.5, total: 0.4 },
         Warning::Contradictory { name: text("a"), first_order: 0.5, total: 0.4 },
         Warning::FormulasDiffer { name: text("a"), gap: 0.03 },
-        Warning::EstimatorsDiffer { name: text("a"), index: "total", estimator: "jansen", gap: -0.02 },
+        Warning::EstimatorsDiffer { name: text("a"), index: IndexKind::Total, estimator: text("jansen"), gap: -0.02 },
         Warning::NoFirstOrder,
         Warning::FirstOrderAboveOne { sum: 1.2 },
         Warning::TotalsBelowOne { sum: 0.8 },
         Warning::TotalAboveOne { name: text("a"), total: 1.1 },
         Warning::Shuffled,
-        Warning::Unlikely { text: text("the value -9999 occurs in 14 of 640 runs") },
-        Warning::Irreproducible { text: text("4 of 6 runs had another value when they were run again") },
+        Warning::UnlikelyValue(unlikely),
+        Warning::UnlikelyInTable(unlikely),
+        Warning::Irreproducible { differing: 4, rows: 6, cause: Irreproducible::Random, has_noise: false },
     ]
+}
+
+fn json(warnings: &[Warning]) -> Vec<serde_json::Value> {
+    with_texts(warnings, serde_json::value::Serializer).unwrap().as_array().unwrap().clone()
 }
 
 #[test]
 fn all_warnings_say_what_was_reviewed() {
-    let lines: Vec<String> = examples().iter().map(|warning| format!("{}: {warning}", warning.code())).collect();
+    let word = |warning: &serde_json::Value, key: &str| warning[key].as_str().unwrap().to_owned();
+    let lines: Vec<String> =
+        json(&examples()).iter().map(|of| format!("{}: {}", word(of, "code"), word(of, "text"))).collect();
     insta::assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
-fn every_code_is_one_of_a_kind_and_documented() {
+fn every_kind_has_an_example_and_a_documented_code() {
     let documented = include_str!("../../../docs/result-format.md");
-    let examples = examples();
-    let codes: std::collections::BTreeSet<&str> = examples.iter().map(Warning::code).collect();
-    let kinds = include_str!("../warning.rs").matches(" => \"").count();
-    assert_eq!((codes.len(), examples.len()), (kinds, kinds));
+    let json = json(&examples());
+    let codes: std::collections::BTreeSet<&str> =
+        json.iter().map(|warning| warning["code"].as_str().unwrap()).collect();
+    let kinds = include_str!("../warning.rs").matches("#[error(").count();
+    assert_eq!((codes.len(), json.len()), (kinds, kinds));
     for code in codes {
         assert!(documented.contains(&format!("| `{code}` |")), "docs/result-format.md says nothing of `{code}`");
     }
@@ -71,11 +80,19 @@ fn every_code_is_one_of_a_kind_and_documented() {
 
 #[test]
 fn warnings_that_were_read_are_those_that_were_written() {
-    let written = examples();
-    let json = serialize(&written, serde_json::value::Serializer).unwrap();
-    assert_eq!(deserialize(json).unwrap(), written);
-    let without_codes = deserialize(serde_json::json!({ "warnings": ["few rows"] })).unwrap();
-    assert_eq!(without_codes, [Warning::Recorded { code: String::new(), text: text("few rows") }]);
+    let infinite = Warning::InflatedSurrogate { times: f64::INFINITY };
+    for warning in examples().into_iter().chain([infinite]) {
+        let json = json(std::slice::from_ref(&warning)).remove(0).to_string();
+        assert_eq!(serde_json::from_str::<Warning>(&json).unwrap(), warning, "{json}");
+    }
+}
+
+#[test]
+fn a_warning_has_code_numbers_and_text_in_json() {
+    let warning = Warning::FewRows { rows: 3.5, values: 256, kurtosis: 82.0 };
+    let text = warning.to_string();
+    let keys = serde_json::json!({ "code": "few-rows", "rows": 3.5, "values": 256, "kurtosis": 82.0, "text": text });
+    assert_eq!(json(&[warning]), [keys]);
 }
 
 #[test]

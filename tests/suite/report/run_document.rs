@@ -80,7 +80,7 @@ fn names_and_titles_cannot_break_out() {
     let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
     result.study.title = Some(evil.to_owned());
     result.study.source = evil.to_owned();
-    result.outputs[0].warnings.push(Warning::Unlikely { text: evil.to_owned() });
+    result.outputs[0].warnings.push(Warning::NoNoise { factor: evil.to_owned() });
     let html = page(&result).html();
     assert!(!html.contains("<script>alert"));
     assert_eq!(html.matches("</script>").count(), 1);
@@ -171,7 +171,8 @@ fn warnings_of_a_kind_are_one() {
     let text = "model = \"expression\"\noutputs = { y = \"exp(9*a*a*b)\", z = \"exp(8*a*a*b)\", w = \"a\" }\n[design]\n\
                 base_samples = 64\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let result = result(text);
-    let few_rows = |place: usize| result.outputs[place].warnings.iter().any(|warning| warning.code() == "few-rows");
+    let few_rows =
+        |place: usize| result.outputs[place].warnings.iter().any(|warning| matches!(warning, Warning::FewRows { .. }));
     assert!(few_rows(0) && few_rows(1) && result.outputs[2].warnings.is_empty());
     let page = page(&result);
     assert_eq!(page.sections[0].id, "warnings");

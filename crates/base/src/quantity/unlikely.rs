@@ -1,5 +1,7 @@
 //! Detection of unlikely values: codes for missing ones, and errors.
 
+use serde::{Deserialize, Serialize};
+
 use super::is_same;
 
 /// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
@@ -14,7 +16,8 @@ const FAR: f64 = 1e3;
 const MIN_VALUES: usize = 10;
 
 /// A value that may not come from the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Unlikely {
     /// The value.
     pub value: f64,

@@ -79,11 +79,10 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {
-        let warning = unlikely.map(|value| {
-            let text = format!("{} (--missing-value={:?})", value.in_table(value.first + 1), value.value);
-            Warning::Unlikely { text }
-        });
-        output.warnings.splice(0..0, warning);
+        if let Some(Unlikely { value, .. }) = unlikely {
+            say(&format!("note: --missing-value={value:?} reads {value:?} of {} as a missing value", output.name));
+        }
+        output.warnings.splice(0..0, unlikely.map(Warning::UnlikelyInTable));
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -195,8 +194,7 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
     let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).in_file(path)?;
-    let unlikely = outputs.iter().map(|output| Unlikely::find(&output.values)).collect();
-    Ok(Read { study, store, unlikely })
+    Ok(Read { study, store, unlikely: outputs.iter().map(|output| Unlikely::find(&output.values)).collect() })
 }
 
 /// What the problem file says, if there is one.

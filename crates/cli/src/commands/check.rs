@@ -255,8 +255,10 @@ fn pilot_warnings(study: &Study, pilot: &Pilot) -> Vec<String> {
         warnings.push(format!("{} of {} failed: {reason}", pilot.failed, counted(pilot.runs, "run")));
     }
     let has_noise = study.space().noise().is_some();
-    let of_output = |differing: &u64| pilot.repeats.as_ref()?.warning(*differing, has_noise);
-    warnings.extend(pilot.repeats.iter().flat_map(|repeats| &repeats.differing).find_map(of_output));
+    if let Some(repeats) = &pilot.repeats {
+        let warning = repeats.differing.iter().find_map(|differing| repeats.warning(*differing, has_noise));
+        warnings.extend(warning.map(|warning| warning.to_string()));
+    }
     warnings
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use apportion::result::{FactorRecord, OutputResult, StudyResult};
+use apportion::result::{FactorDistribution, FactorRecord, OutputResult, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
 use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
@@ -210,7 +210,7 @@ pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<Compa
 pub fn shared_points(a: &StudyResult, b: &StudyResult) -> bool {
     let design = |result: &StudyResult| {
         let p = &result.provenance;
-        (p.sampler.clone(), p.seed, p.base_samples, p.replicates, result.factors.len())
+        (p.sampler, p.seed, p.base_samples, p.replicates, result.factors.len())
     };
     design(a) == design(b)
 }
@@ -336,7 +336,7 @@ pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<Set
         let factor = |result: &StudyResult| result.factors.iter().find(|factor| factor.name == *name).map(of_factor);
         note(&format!("factor {name}"), &factor);
     }
-    note("sampler", &|result| Some(result.provenance.sampler.clone()));
+    note("sampler", &|result| Some(result.provenance.sampler.name().to_owned()));
     note("base samples", &|result| Some(result.provenance.base_samples.to_string()));
     note("replicates", &|result| Some(result.provenance.replicates.to_string()));
     note("plain rows", &|result| Some(result.provenance.plain_rows.to_string()));
@@ -357,11 +357,8 @@ fn in_words(value: &Value) -> String {
 
 /// Describes a factor's distribution with its parameters and its unit.
 fn of_factor(factor: &FactorRecord) -> String {
-    let Value::Object(map) = &factor.distribution else { return factor.distribution.to_string() };
-    let said = map.iter().map(|(key, value)| match key.as_str() {
-        "name" => in_words(value),
-        _ => format!("{key} {}", in_words(value)),
-    });
-    let words = said.collect::<Vec<_>>().join(", ");
+    let FactorDistribution { name, parameters } = &factor.distribution;
+    let parameters = parameters.iter().map(|(key, value)| format!("{key} {}", in_words(value)));
+    let words = std::iter::once(name.clone()).chain(parameters).collect::<Vec<_>>().join(", ");
     if matches!(factor.unit.as_str(), "" | "1") { words } else { format!("{words} ({})", factor.unit) }
 }

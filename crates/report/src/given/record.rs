@@ -209,7 +209,8 @@ pub fn build_given(
 
 /// Returns a sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
-    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.in_table(found.first + 1)))
+    let found = Unlikely::find(&column.values)?;
+    Some(format!("{}: {} (--missing-value={:?})", column.name, found.in_table(found.first + 1), found.value))
 }
 
 fn points_name(points: &PointSet) -> &'static str {

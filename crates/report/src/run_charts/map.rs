@@ -7,6 +7,7 @@ use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Tile};
 use crate::factor_bars::{INDEX, MAX_BARS, not_drawn, pair_panel};
 use crate::format::{axis_unit, fixed, index, name};
 use crate::leading::falling;
+use crate::wording::weighting;
 
 /// Maximum number of outputs of a map; of more, an even selection is drawn.
 const ROWS: usize = 40;
@@ -109,7 +110,7 @@ pub(crate) fn together_chart(result: &StudyResult) -> Chart {
     let caption = match &result.aggregate {
         Some(aggregate) if aggregate.indices.is_some() => {
             let count = aggregate.outputs.len();
-            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(names.len(), MAX_BARS))
+            format!("Over {count} outputs: {}.{}", weighting(aggregate.weighting), not_drawn(names.len(), MAX_BARS))
         }
         aggregate => {
             let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());

@@ -61,8 +61,8 @@ fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, 
 }
 
 fn factor_spacing(factor: &FactorRecord) -> Spacing {
-    match factor.distribution.get("name").and_then(serde_json::Value::as_str) {
-        Some("log-uniform") => Spacing::Logarithmic,
+    match factor.distribution.name.as_str() {
+        "log-uniform" => Spacing::Logarithmic,
         _ => Spacing::Linear,
     }
 }
@@ -101,9 +101,8 @@ pub(super) struct Categories {
 impl Categories {
     /// Returns the categories of a factor that has few.
     pub fn new(factor: &FactorRecord) -> Option<Self> {
-        let parameter = |key: &str| factor.distribution.get(key);
-        let list = |key: &str| parameter(key).and_then(Value::as_array);
-        let (labels, values): (Vec<String>, Vec<f64>) = match parameter("name").and_then(Value::as_str)? {
+        let list = |key: &str| factor.distribution.parameters.get(key).and_then(Value::as_array);
+        let (labels, values): (Vec<String>, Vec<f64>) = match factor.distribution.name.as_str() {
             "boolean" => (vec!["false".to_owned(), "true".to_owned()], vec![0.0, 1.0]),
             "categorical" => (
                 list("labels")?.iter().map(|label| label.as_str().map(str::to_owned)).collect::<Option<_>>()?,

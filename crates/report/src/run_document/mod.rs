@@ -19,6 +19,7 @@ pub(crate) use tables::{FACTORS, IN_CSV};
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, printed, significant};
 use super::study_sections::{self, study_section, validity_section};
+use super::wording::{lines_to_repeat, weighting};
 
 /// Builds the document of a result. All of it comes from the result, so that it can be rebuilt from the JSON file. With
 /// one output every topic is a section; with several every output is; with 12 or more there is an overview, and the
@@ -121,7 +122,7 @@ fn under_headings(topics: Vec<Section>) -> Vec<Part> {
 /// Describes the indices over all outputs together, or why there are none.
 fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
-    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
+    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), weighting(aggregate.weighting)))];
     match (&aggregate.indices, &aggregate.reason) {
         (Some(indices), _) => {
             parts.push(tables::aggregate_of(result, &aggregate.outputs, indices, aggregate.noise.as_ref()).into())
@@ -177,7 +178,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
             kind: "What the run chose".to_owned(),
             texts: chosen(result, spending),
         });
-        parts.push(Part::Code(spending.lines.clone()));
+        parts.extend(lines_to_repeat(result).map(Part::Code));
     }
     if let Some(stopping) = &result.stopping {
         let (kind, mark) = match stopping.target_met {
@@ -231,10 +232,10 @@ fn own_ranges(study: &StudyRecord) -> Option<Section> {
 /// Describes how the result was computed.
 fn provenance(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
-    let interval = provenance.interval.clone().unwrap_or_else(|| "none: a single replicate".to_owned());
+    let interval = provenance.interval().unwrap_or_else(|| "none: a single replicate".to_owned());
     let rows = [
         ("program", format!("apportion {}", provenance.apportion_version)),
-        ("sampler", provenance.sampler.clone()),
+        ("sampler", provenance.sampler.name().to_owned()),
         ("seed", provenance.seed.to_string()),
         ("base points", grouped(provenance.base_samples)),
         ("replicates", provenance.replicates.to_string()),

@@ -10,6 +10,7 @@ use crate::document::{Part, Section, Table, largest};
 use crate::format::{name, or_dash, short, value};
 use crate::leading::{Contender, by_total, leader_of_all, leaders, of_which};
 use crate::run_charts::{map_chart, overall_order, together, together_chart};
+use crate::wording::weighting;
 
 /// Maximum numbers of factors and of outputs in the table of outputs.
 const COLUMNS: usize = 8;
@@ -35,7 +36,7 @@ fn overview(figures: Figures<'_>) -> Vec<Part> {
     let study = &result.study.name;
     let mut text = format!("The indices of every output are in `{study}.csv`, all else in `{study}.json`.");
     if let Some(aggregate) = &result.aggregate {
-        text.push_str(&format!(" In those of all outputs together, {}.", aggregate.weighting));
+        text.push_str(&format!(" In those of all outputs together, {}.", weighting(aggregate.weighting)));
     }
     parts.push(Part::Text(text));
     parts.push(figures.of_all(together_chart(result), "together", &format!("{study}-together")));

@@ -1,5 +1,6 @@
 //! The document on a series: its indices along the axis and as a whole.
 
+use apportion::Scaling;
 use apportion::result::{AggregateRecord, OutputResult, SeriesRecord, StudyResult};
 
 use super::figures::Figures;
@@ -13,15 +14,12 @@ use crate::run_charts::{along_chart, together_chart, values};
 /// Number of series with all their charts and a table of their values.
 const IN_FULL: usize = 4;
 
-/// How values are weighted.
-const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
-
 /// Returns the values of `series` alone, as a result of its own.
 fn values_alone(result: &StudyResult, series: &SeriesRecord) -> StudyResult {
     let outputs = values(result, series).to_vec();
     let aggregate = AggregateRecord {
         outputs: outputs.iter().map(|output| output.name.clone()).collect(),
-        weighting: WEIGHTING.to_owned(),
+        weighting: Scaling::Plain,
         indices: series.indices.clone(),
         noise: None,
         reason: series.reason.clone(),
@@ -105,6 +103,7 @@ fn in_full(result: &StudyResult, series: &SeriesRecord, figures: Figures<'_>, st
     parts.extend(reason.map(|reason| Part::no_indices(format!("There are no indices of the whole series: {reason}."))));
     let mut chart = together_chart(alone);
     chart.title = chart.title.replace("all outputs together", &format!("{} as a whole", name(&series.name)));
+    chart.caption = chart.caption.replace("each output", "each value");
     parts.push(figures.of_all(chart, "together", &format!("{stem}-together")));
     let caption = "Indices of the whole series, the number of its values for which a factor surely matters most, and the median and \
                    largest of its total indices.";

@@ -1,5 +1,7 @@
 //! Parts shared by sections of one output and of many, and warnings of several outputs, each kind once.
 
+use std::mem::{Discriminant, discriminant};
+
 use apportion::result::{OutputResult, StudyResult, Warning};
 use apportion::uncertainty::{Estimate, Interval};
 
@@ -30,7 +32,7 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
                 .to_owned()
         }
     };
-    let intervals = match &result.provenance.interval {
+    let intervals = match result.provenance.interval() {
         Some(words) => Part::Details {
             summary: "How the intervals are computed".to_owned(),
             parts: vec![Part::Text(format!("Intervals (±): {words}."))],
@@ -51,9 +53,9 @@ pub(super) fn complement(part: Estimate) -> Estimate {
 pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
     let places = outputs.iter().enumerate();
     let warnings = places.flat_map(|(place, output)| output.warnings.iter().map(move |warning| (place, warning)));
-    let groups = grouped_by_key(warnings.map(|(place, warning)| (warning.code(), (place, warning))));
+    let groups = grouped_by_key(warnings.map(|(place, warning)| (discriminant(warning), (place, warning))));
     let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
-    let sentence = |(_, all): &(&str, Vec<(usize, &Warning)>)| {
+    let sentence = |(_, all): &(Discriminant<Warning>, Vec<(usize, &Warning)>)| {
         let mut text = all[0].1.to_string();
         let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
         places.dedup();

@@ -51,7 +51,9 @@ fn studies(bench: &Bench<'_>, group: &'static str) -> anyhow::Result<(&'static s
     let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
     let words = format!(
         "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
-        provenance.base_samples, provenance.sampler, provenance.seed
+        provenance.base_samples,
+        provenance.sampler.name(),
+        provenance.seed
     );
     Ok(("studies", words))
 }

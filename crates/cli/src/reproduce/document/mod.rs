@@ -103,7 +103,10 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
     let of = &reproduction.studies[0].result.provenance;
     let design = format!(
         "{} points, {} base samples in {} replicates, seed {}",
-        of.sampler, of.base_samples, of.replicates, of.seed
+        of.sampler.name(),
+        of.base_samples,
+        of.replicates,
+        of.seed
     );
     let mut rows = vec![
         ("effort", effort.to_owned()),
@@ -112,7 +115,7 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
         ("first-order estimator", of.first_order_estimator.clone()),
         ("total estimator", of.total_estimator.clone()),
     ];
-    rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+    rows.extend(of.interval().map(|words| ("95 % intervals", words)));
     let overrides = &reproduction.studies[0].result.study.overrides;
     if !overrides.is_empty() {
         rows.push(("changes on the command line", overrides.join(", ")));

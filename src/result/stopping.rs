@@ -1,47 +1,45 @@
-//! Reasons why a growing run stops.
+//! Why a growing run ended.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Why a growing run ended, and whether it met its target.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stopped {
+/// Why a growing run ended, and its targets.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StoppingRecord {
     /// The reason.
     pub reason: StopReason,
-    /// Whether every index met the target; `None` if there was none.
+    /// Whether every index met the target; `null` if there was none.
     pub target_met: Option<bool>,
+    /// The requested half width.
+    pub target_half_width: Option<f64>,
+    /// The maximum time, in seconds.
+    pub budget_seconds: Option<f64>,
+    /// The maximum number of model runs.
+    pub max_runs: Option<u64>,
 }
 
 /// Why a growing run was not doubled again.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub(crate) enum StopReason {
+#[derive(Debug, Clone, Copy, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum StopReason {
     /// Every interval is as narrow as requested.
     #[error("every half width is {widest:.2e} or less: the target of {target} is met")]
-    TargetMet {
-        /// The largest half width.
-        widest: f64,
-        /// The requested half width.
-        target: f64,
-    },
+    TargetMet { widest: f64, target: f64 },
     /// An output has no indices or no intervals, and more runs are not expected to change this.
     #[error(
         "indices or intervals are missing with {base_samples} base samples, and more runs may not help: see the reasons at \
          the outputs, or start with more base samples"
     )]
-    NoIntervals {
-        /// Base samples of the run.
-        base_samples: u64,
-    },
+    NoIntervals { base_samples: u64 },
     /// Every interval is as narrow as requested, but a level of a factor is rare among the rows.
     #[error(
         "every half width is {widest:.2e} or less, but a level of a factor is in too few rows for reliable intervals: \
          about {base_samples:.0} base samples would contain it ten times"
     )]
-    RareLevels {
-        /// The largest half width.
-        widest: f64,
-        /// Base samples with which each level is expected ten times.
-        base_samples: f64,
-    },
+    RareLevels { widest: f64, base_samples: f64 },
     /// There are no more points.
     #[error("the sequence has no more points")]
     EndOfSequence,
@@ -50,18 +48,8 @@ pub(crate) enum StopReason {
     Memory,
     /// Twice the runs would be too many.
     #[error("twice the runs would be {runs}, more than max_runs = {most}")]
-    MaxRuns {
-        /// Twice the runs.
-        runs: u128,
-        /// The maximum number of runs.
-        most: u64,
-    },
+    MaxRuns { runs: u64, most: u64 },
     /// Twice the runs would take too long.
     #[error("twice the runs would take about {seconds:.1} s, more than the budget of {budget} s")]
-    Budget {
-        /// The seconds that twice the runs would take.
-        seconds: f64,
-        /// The maximum time in seconds.
-        budget: f64,
-    },
+    Budget { seconds: f64, budget: f64 },
 }
