@@ -1,27 +1,35 @@
 //! Simulation of one scene of a study in time, and of the diagram of other motions of the particle.
 
-use anyhow::anyhow;
 use apportion::study::Study;
 use apportion_afm::history::{Sample, history};
 use apportion_afm::modes::{Mode, Pushing, TipForce};
 use apportion_afm::{AfmSubject, Failure, Fidelity, Options, Parameter, Scene, critical_force, edge_unit};
 use apportion_report::chart::{Colour, Stroke};
 use apportion_report::with_unit;
+use thiserror::Error;
 
-use crate::failure::bad_input;
 use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 
+/// Why a study cannot be simulated in time.
+#[derive(Debug, Error)]
+pub enum SceneError {
+    /// The study has another model.
+    #[error(
+        "only the nanoparticle model (model = \"afm\") has a scene in time, but the model of this study is `{model}`"
+    )]
+    OtherModel {
+        /// The name of that model.
+        model: String,
+    },
+    /// The scene has no solution, as at velocity 0.
+    #[error("the scene cannot be simulated: {0}")]
+    Failed(#[from] Failure),
+}
+
 /// Returns the scene of a study: its constants, with every factor at its nominal value.
-///
-/// # Errors
-/// An error if the study does not use the nanoparticle model.
-fn scene_of(study: &Study) -> anyhow::Result<(Scene, Options)> {
-    let afm = study.subject().downcast_ref::<AfmSubject>().ok_or_else(|| {
-        bad_input(format!(
-            "only the nanoparticle model (model = \"afm\") has a scene in time, but the model of this study is `{}`",
-            study.subject().name()
-        ))
-    })?;
+fn scene_of(study: &Study) -> Result<(Scene, Options), SceneError> {
+    let other_model = || SceneError::OtherModel { model: study.subject().name().to_owned() };
+    let afm = study.subject().downcast_ref::<AfmSubject>().ok_or_else(other_model)?;
     let mut scene = afm.scene;
     for factor in study.space().factors() {
         if let Some(parameter) = Parameter::from_name(&factor.name) {
@@ -34,18 +42,16 @@ fn scene_of(study: &Study) -> anyhow::Result<(Scene, Options)> {
 /// Simulates the scene of `study`, for `duration` seconds; by default for twice the critical time.
 ///
 /// # Errors
-/// An error if the study has no scene, or the scene no solution, as at velocity 0.
-pub fn simulate(study: &Study, duration: Option<f64>) -> anyhow::Result<SceneStory> {
+/// [`SceneError`] if the study has no scene, or the scene no solution.
+pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, SceneError> {
     let (scene, options) = scene_of(study)?;
     let quasi_static = Options { fidelity: Fidelity::QuasiStatic, ..options };
-    let usual = || Ok(2.0 * critical_force(&scene, &quasi_static)?.critical_time?);
+    let duration = match duration {
+        Some(duration) => duration,
+        None => 2.0 * critical_force(&scene, &quasi_static)?.critical_time?,
+    };
     let title = study.title().unwrap_or(study.name()).to_owned();
-    let story = duration.map_or_else(usual, Ok).and_then(|duration| scene_story(title, &scene, &options, duration));
-    story.map_err(failed)
-}
-
-fn failed(failure: Failure) -> anyhow::Error {
-    anyhow!("the scene cannot be simulated: {failure}")
+    Ok(scene_story(title, &scene, &options, duration)?)
 }
 
 /// Simulates a scene, for `duration` seconds, by the quasi-static rung for any fidelity of the options.
@@ -113,10 +119,10 @@ const ANGLES: usize = 180;
 /// from the vertical (Tafazzoli and Sitti 2004, fig. 12).
 ///
 /// # Errors
-/// An error if the study has no scene, or the scene no solution.
-pub fn mode_diagram(study: &Study) -> anyhow::Result<ModeDiagram> {
+/// [`SceneError`] if the study has no scene, or the scene no solution.
+pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SceneError> {
     let (scene, options) = scene_of(study)?;
-    scene_modes(&scene, &options).map_err(failed)
+    Ok(scene_modes(&scene, &options)?)
 }
 
 /// Returns the mode diagram of a scene, like [`mode_diagram`] for a study.
