@@ -3,8 +3,9 @@
 use apportion::Estimate;
 use apportion::uncertainty::Interval;
 
+use super::papers::published;
 use super::shares::indices;
-use super::{Reproduced, published};
+use super::studies::Reproduced;
 
 /// Share in percent from which on a factor counts: less would be printed as 0 in whole percents, as in LG, and is
 /// hardly visible as a bar.
@@ -19,13 +20,13 @@ fn bounds(share: Estimate) -> Interval {
 }
 
 /// Returns whether no share in the interval would be visible.
-fn unseen(share: Estimate) -> bool {
+fn is_unseen(share: Estimate) -> bool {
     bounds(share).high < VISIBLE
 }
 
 /// What our shares say of an order of two factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Standing {
+pub(super) enum OrderCheck {
     /// Confirmed: the intervals do not overlap.
     Kept,
     /// Reversed: the intervals do not overlap either.
@@ -37,17 +38,17 @@ pub(super) enum Standing {
 }
 
 /// Compares our shares with the order of `first` before `second`.
-fn standing(first: Estimate, second: Estimate) -> Standing {
-    if unseen(first) && unseen(second) {
-        return Standing::Unseen;
+fn check_order(first: Estimate, second: Estimate) -> OrderCheck {
+    if is_unseen(first) && is_unseen(second) {
+        return OrderCheck::Unseen;
     }
     let (one, other) = (bounds(first), bounds(second));
     if one.low > other.high && one.low >= VISIBLE {
-        Standing::Kept
+        OrderCheck::Kept
     } else if other.low > one.high && other.low >= VISIBLE {
-        Standing::Broken
+        OrderCheck::Broken
     } else {
-        Standing::Undecided
+        OrderCheck::Undecided
     }
 }
 
@@ -57,7 +58,7 @@ pub(super) struct OrderVerdict<'a> {
     /// Our factors that may have a visible share, the largest share first.
     pub ours: Vec<&'a str>,
     /// Each neighbouring pair of the published order.
-    pub pairs: Vec<(&'a str, &'a str, Standing)>,
+    pub pairs: Vec<(&'a str, &'a str, OrderCheck)>,
     /// Factors with a visible share that are not in the published order.
     pub intruders: Vec<&'a str>,
     /// Published factors without a visible share of ours.
@@ -67,14 +68,14 @@ pub(super) struct OrderVerdict<'a> {
 /// Compares the shares with the published order, whose factors are among them.
 fn order_verdict<'a>(mut shares: Vec<FactorShare<'a>>, published: &[&str]) -> OrderVerdict<'a> {
     shares.sort_by(|(_, a), (_, b)| b.estimate.total_cmp(&a.estimate));
-    let known = published.iter().filter_map(|name| shares.iter().find(|(factor, _)| factor == name));
-    let known: Vec<FactorShare<'a>> = known.copied().collect();
-    let is_intruder = |(factor, share): &&FactorShare<'a>| bounds(*share).low >= VISIBLE && !published.contains(factor);
+    let ranked = published.iter().filter_map(|name| shares.iter().find(|(factor, _)| factor == name));
+    let ranked: Vec<FactorShare<'a>> = ranked.copied().collect();
+    let visible = shares.iter().filter(|(_, share)| bounds(*share).low >= VISIBLE).map(|(factor, _)| *factor);
     OrderVerdict {
-        ours: shares.iter().filter(|(_, share)| !unseen(*share)).map(|(factor, _)| *factor).collect(),
-        pairs: known.windows(2).map(|pair| (pair[0].0, pair[1].0, standing(pair[0].1, pair[1].1))).collect(),
-        intruders: shares.iter().filter(is_intruder).map(|(factor, _)| *factor).collect(),
-        unseen: known.iter().filter(|(_, share)| unseen(*share)).map(|(factor, _)| *factor).collect(),
+        ours: shares.iter().filter(|(_, share)| !is_unseen(*share)).map(|(factor, _)| *factor).collect(),
+        pairs: ranked.windows(2).map(|pair| (pair[0].0, pair[1].0, check_order(pair[0].1, pair[1].1))).collect(),
+        intruders: visible.filter(|factor| !published.contains(factor)).collect(),
+        unseen: ranked.iter().filter(|(_, share)| is_unseen(*share)).map(|(factor, _)| *factor).collect(),
     }
 }
 
@@ -82,13 +83,14 @@ impl OrderVerdict<'_> {
     /// Returns whether every factor is before the next, up to a rest without visible shares if `allows_unseen`, and no
     /// other factor has a visible share.
     pub fn is_kept(&self, allows_unseen: bool) -> bool {
-        let is_kept = |standing| standing == Standing::Kept || allows_unseen && standing == Standing::Unseen;
-        self.intruders.is_empty() && self.pairs.iter().all(|(.., standing)| is_kept(*standing))
+        let mut checks = self.pairs.iter().map(|(.., check)| *check);
+        self.intruders.is_empty()
+            && checks.all(|check| check == OrderCheck::Kept || allows_unseen && check == OrderCheck::Unseen)
     }
 
     /// Lists the pairs with this standing, as in `length before width`.
-    pub fn pairs_that_are(&self, wanted: Standing) -> Vec<String> {
-        let pairs = self.pairs.iter().filter(|(.., standing)| *standing == wanted);
+    pub fn pairs_that_are(&self, wanted: OrderCheck) -> Vec<String> {
+        let pairs = self.pairs.iter().filter(|(.., check)| *check == wanted);
         pairs.map(|(one, other, _)| format!("{one} before {other}")).collect()
     }
 }
@@ -101,13 +103,17 @@ pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
 
 /// Returns the total indices of the dimensional and the environmental factors of a general study, and whether the first
 /// one is larger; `None` without groups.
-pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, Standing)> {
+pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, OrderCheck)> {
     let groups = member.result.outputs.first()?.groups.as_ref()?;
-    let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
-    let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
-    let percent = |index: Estimate| Estimate {
+    let [dimensional, environmental] = ["dimensional", "environmental"]
+        .map(|name| groups.iter().find(|group| group.group == name).map(|group| group.effect.total));
+    let (dimensional, environmental) = (dimensional?, environmental?);
+    Some((dimensional, environmental, check_order(in_percent(dimensional), in_percent(environmental))))
+}
+
+fn in_percent(index: Estimate) -> Estimate {
+    Estimate {
         estimate: 100.0 * index.estimate,
         interval: index.interval.map(|i| Interval { low: 100.0 * i.low, high: 100.0 * i.high }),
-    };
-    Some((dimensional, environmental, standing(percent(dimensional), percent(environmental))))
+    }
 }

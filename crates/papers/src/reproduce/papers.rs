@@ -67,14 +67,6 @@ pub(super) struct PaperConstant {
     pub why: &'static str,
 }
 
-/// Computed values in words, by their names in braces.
-pub(super) type Words = Vec<(&'static str, String)>;
-
-/// Replaces the names in braces in `text` by `words`.
-pub(super) fn filled(text: &str, words: &Words) -> String {
-    words.iter().fold(text.to_owned(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
-}
-
 /// A figure and the data of ours: a factor and lines, a group of studies, or else a scene.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -120,6 +112,6 @@ impl Published {
 
 /// Returns the published results of the study of `group` (`dimensional`, `environmental`, `general`) under `friction`.
 pub fn published(group: &str, friction: &str) -> Published {
-    let found = papers().shares.iter().find(|shares| shares.group == group).expect("a group of the papers");
-    Published { ranking: &found.order, shares: if friction == PRINTED { &found.printed } else { &[] } }
+    let printed = papers().shares.iter().find(|shares| shares.group == group).expect("a group of the papers");
+    Published { ranking: &printed.order, shares: if friction == PRINTED { &printed.printed } else { &[] } }
 }

@@ -5,14 +5,15 @@
 //! that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
 use apportion::EffectEstimates;
-use apportion::result::{OutputResult, StudyResult};
+use apportion::result::OutputResult;
 use apportion::run::RunError;
 use apportion_report::document::{Part, Table};
 use apportion_report::fixed;
 use apportion_report::format::words;
 
-use super::papers::{PRINTED, Words, filled, papers};
-use super::{Effort, FRICTIONS, GROUPS, StudyGroup, published, study};
+use super::papers::{PRINTED, papers, published};
+use super::studies::{Effort, FRICTIONS, GROUPS, StudyGroup, study};
+use super::words::{Words, filled};
 
 /// Distance in percentage points up to which a percentage agrees: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -57,8 +58,8 @@ impl StudyShares {
     fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Self {
         let indices = output.indices.iter().flatten();
         // The design does not depend on the user: with it every output of these studies has shares.
-        let share = |effect| share(effect).expect("a study with shares");
-        let shares: Vec<(String, f64)> = indices.map(|i| (i.factor.clone(), share(&i.effect))).collect();
+        let shares = indices.map(|i| (i.factor.clone(), share(&i.effect).expect("a study with shares")));
+        let shares: Vec<(String, f64)> = shares.collect();
         let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
         Self { group, shares, distance }
     }
@@ -109,19 +110,20 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
     let mut rows = Vec::new();
     for (friction, key, settings) in models {
         let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
-        let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
-        // Within half a percentage point of those of the whole.
-        let quick = (effort == Effort::Quick).then_some("design.base_samples=512");
-        let overrides: Vec<String> = own.chain(settings.iter().copied().chain(quick).map(str::to_owned)).collect();
+        let mut overrides = vec![format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()];
+        overrides.extend(settings.iter().map(|setting: &&str| (*setting).to_owned()));
+        if effort == Effort::Quick {
+            // Within half a percentage point of those of the full effort.
+            overrides.push("design.base_samples=512".to_owned());
+        }
         let studies = GROUPS.map(|group| study(key, group.key, &overrides).expect("a part of this program"));
         let results =
             studies.iter().map(|study| study.runner().threads(threads).run()).collect::<Result<Vec<_>, _>>()?;
         for (place, (_, output)) in OUTPUTS.into_iter().enumerate() {
             for (measure, share) in MEASURES {
-                let of_group = |(group, result): (StudyGroup, &StudyResult)| {
-                    StudyShares::new(group.key, &result.outputs[place], share)
-                };
-                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect();
+                let studies = GROUPS.iter().zip(&results);
+                let studies =
+                    studies.map(|(group, result)| StudyShares::new(group.key, &result.outputs[place], share)).collect();
                 rows.push(Percentages { friction, measure, output, studies });
             }
         }
@@ -138,11 +140,11 @@ pub fn summary(rows: &[Percentages]) -> Vec<String> {
 
 fn in_words(rows: &[Percentages]) -> Option<Words> {
     let [dimensional, environmental, general] = GROUPS.map(|group| group.key);
-    let by_first_order = |friction| {
+    let [ours, viscous] = ["LuGre", "viscous LuGre"].map(|friction| {
         let row = rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"));
         row.map(|row| &row.studies[..])
-    };
-    let [ours, viscous] = [by_first_order("LuGre")?, by_first_order("viscous LuGre")?];
+    });
+    let (ours, viscous) = (ours?, viscous?);
     let nearest = rows.iter().min_by(|a, b| a.mean_distance().total_cmp(&b.mean_distance()))?;
     let meets_all = nearest.studies.iter().all(|study| study.distance <= MET);
     let distances = nearest.studies.iter().map(|study| format!("{} {}", study.group, fixed(study.distance, 1)));
@@ -166,19 +168,23 @@ pub fn table(rows: &[Percentages]) -> Part {
     let caption = "Our shares in percent under each reading, and their distance to the printed percentages of each study: \
                    the root mean square, in percentage points, over the factors with a printed percentage and all others \
                    taken together.";
-    let number = |value: Option<f64>| value.map_or_else(String::new, |value| fixed(value, 1));
     let mut table = Table::from_rows(caption, std::iter::once(None).chain(rows.iter().map(Some)))
         .text("friction", |row| row.map_or("printed", |row| row.friction))
         .text("output", |row| row.map_or("", |row| row.output))
         .text("share of the sum of", |row| row.map_or("", |row| row.measure));
     for (place, StudyGroup { key, .. }) in GROUPS.into_iter().enumerate() {
         for (factor, percent) in published(key, PRINTED).shares {
-            let share = |row: &Percentages| row.studies[place].share(factor);
-            table = table.number(format!("{key}: {}", words(factor)), |row| number(row.map_or(Some(*percent), share)));
+            table = table.number(format!("{key}: {}", words(factor)), |row| {
+                one_decimal(row.map_or(Some(*percent), |row| row.studies[place].share(factor)))
+            });
         }
-        table = table.number(format!("{key}: distance"), |row| number(row.map(|row| row.studies[place].distance)));
+        table = table.number(format!("{key}: distance"), |row| one_decimal(row.map(|row| row.studies[place].distance)));
     }
     table.into()
+}
+
+fn one_decimal(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| fixed(value, 1))
 }
 
 /// Formats one line per friction model, output, measure, study and factor; percentages and distances as in [`table`].

@@ -5,7 +5,7 @@ use apportion_afm::FrictionLaw;
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
 use apportion_report::format::{change, force, length, three_digits as short, time};
 
-use super::{NANO, SceneSample, SceneStory};
+use super::story::{NANO, SceneSample, SceneStory};
 
 /// The colours of the quantities, also in the animation: the pushing force has that of the friction law.
 pub(super) const LATERAL: Colour = Colour::Series(4);
@@ -23,12 +23,12 @@ struct Curve<'a> {
 }
 
 fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> Panel {
-    let line = |curve: &Curve<'_>| {
-        let points = story.samples.iter().map(|sample| (sample.time, (curve.read)(sample)));
-        Series::new(curve.name, curve.look.0).stroke(curve.look.1).line(points.collect())
-    };
+    let lines = curves.iter().map(|Curve { name, look: (colour, stroke), read }| {
+        let points = story.samples.iter().map(|sample| (sample.time, read(sample)));
+        Series::new(*name, *colour).stroke(*stroke).line(points.collect())
+    });
     let rule = story.slip().map(|t| Mark::rule(t, format!("slip at {}", time(t))));
-    Panel::new(Axis::new("Time", "s"), y).with(curves.iter().map(line)).with(rule)
+    Panel::new(Axis::new("Time", "s"), y).with(lines).with(rule)
 }
 
 /// Draws quantities of one unit.
@@ -46,7 +46,7 @@ pub const fn law_colour(law: FrictionLaw) -> Colour {
     }
 }
 
-/// Draws tS04 figure 8, CHK figure 5.
+/// Draws TS04 figure 8, CHK figure 5.
 pub(crate) fn forces(story: &SceneStory) -> Chart {
     let curves = [
         Curve { name: "tip force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
@@ -71,7 +71,7 @@ fn forces_caption(story: &SceneStory) -> String {
     format!("{begins} {critical}, at which the particle slips after {slip}{after}{normal}.")
 }
 
-/// Draws tS04 figure 9.
+/// Draws TS04 figure 9.
 pub(crate) fn pushing(story: &SceneStory) -> Chart {
     let critical = NANO * story.critical.critical_force;
     let curves = [
@@ -87,7 +87,7 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
     chart(story, ["Pushing force against critical force", &caption], ["Force", "nN"], &curves)
 }
 
-/// Draws tS04 figure 10.
+/// Draws TS04 figure 10.
 pub(crate) fn positions(story: &SceneStory) -> Chart {
     let curves = [
         Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate },
@@ -113,24 +113,19 @@ fn positions_caption(story: &SceneStory) -> String {
     }
 }
 
-/// Draws tS04 figure 13.
+/// Draws TS04 figure 13.
 pub(crate) fn contacts(story: &SceneStory) -> Chart {
-    let absolute: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| NANO * read(sample);
-    let relative: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| 100.0 * change_since_start(story, sample, read);
-    let of_both = |label: &str, unit: &str, [tip, substrate]: [Read; 2], of: &dyn Fn(&SceneSample, Read) -> f64| {
-        let curves = [
-            Curve { name: "at the tip", look: (story.colour, Stroke::Solid), read: &|s| of(s, tip) },
-            Curve { name: "at the substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| of(s, substrate) },
-        ];
-        panel(story, Axis::new(label, unit), &curves)
-    };
     let radii: [Read; 2] = [|s| s.tip_contact_radius(), |s| s.substrate_contact.radius];
     let depths: [Read; 2] = [|s| s.tip_indentation(), |s| s.substrate_contact.indentation];
     let mut panels = vec![
-        of_both("Contact radius", "nm", radii, absolute),
-        of_both("Indentation", "nm", depths, absolute),
-        of_both("Change of radius", "%", radii, relative),
-        of_both("Change of indentation", "%", depths, relative),
+        both_contacts(story, Axis::new("Contact radius", "nm"), radii, &|sample, read| NANO * read(sample)),
+        both_contacts(story, Axis::new("Indentation", "nm"), depths, &|sample, read| NANO * read(sample)),
+        both_contacts(story, Axis::new("Change of radius", "%"), radii, &|sample, read| {
+            100.0 * change_since_start(story, sample, read)
+        }),
+        both_contacts(story, Axis::new("Change of indentation", "%"), depths, &|sample, read| {
+            100.0 * change_since_start(story, sample, read)
+        }),
     ];
     // One label of the slip is enough for a chart.
     for mark in panels[1..].iter_mut().flat_map(|panel| &mut panel.marks) {
@@ -143,6 +138,20 @@ pub(crate) fn contacts(story: &SceneStory) -> Chart {
 
 type Read = fn(&SceneSample) -> f64;
 
+/// Draws a quantity of the contacts at the tip and at the substrate, in the unit of `scaled`.
+fn both_contacts(
+    story: &SceneStory,
+    axis: Axis,
+    [tip, substrate]: [Read; 2],
+    scaled: &dyn Fn(&SceneSample, Read) -> f64,
+) -> Panel {
+    let curves = [
+        Curve { name: "at the tip", look: (story.colour, Stroke::Solid), read: &|s| scaled(s, tip) },
+        Curve { name: "at the substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| scaled(s, substrate) },
+    ];
+    panel(story, axis, &curves)
+}
+
 /// Returns the relative change of a quantity since the first sample; NaN if it does not exist.
 fn change_since_start(story: &SceneStory, sample: &SceneSample, read: Read) -> f64 {
     read(sample) / read(story.start()) - 1.0
@@ -150,15 +159,18 @@ fn change_since_start(story: &SceneStory, sample: &SceneSample, read: Read) -> f
 
 fn contacts_caption(story: &SceneStory) -> String {
     let end = story.held();
-    let said = |read: Read| change(change_since_start(story, end, read)).unwrap_or_else(|| short(f64::NAN));
+    let reads: [Read; 4] = [
+        |s| s.tip_contact_radius(),
+        |s| s.substrate_contact.radius,
+        |s| s.tip_indentation(),
+        |s| s.substrate_contact.indentation,
+    ];
+    let [tip_radius, radius, tip_indentation, indentation] =
+        reads.map(|read| change(change_since_start(story, end, read)).unwrap_or_else(|| short(f64::NAN)));
     format!(
-        "From the start to {}, the contact radius changes by {} at the tip and {} at the substrate, the indentation by \
-         {} and {}.",
-        time(end.time),
-        said(|s| s.tip_contact_radius()),
-        said(|s| s.substrate_contact.radius),
-        said(|s| s.tip_indentation()),
-        said(|s| s.substrate_contact.indentation)
+        "From the start to {}, the contact radius changes by {tip_radius} at the tip and {radius} at the substrate, the \
+         indentation by {tip_indentation} and {indentation}.",
+        time(end.time)
     )
 }
 

@@ -3,7 +3,7 @@
 use apportion_report::document::Table;
 use serde_json::{Map, Value, json};
 
-use super::{NANO, SceneSample, SceneStory};
+use super::story::{NANO, SceneSample, SceneStory};
 
 /// A column of numbers: its name with unit, the factor from SI to that unit, and a function for its value in SI.
 type Column = (&'static str, f64, fn(&SceneSample) -> f64);
@@ -69,26 +69,25 @@ pub(super) fn scene_value(story: &SceneStory) -> Value {
     });
     let samples: Map<String, Value> = numbers.chain(flags).collect();
     let (scene, critical) = (&story.scene, &story.critical);
-    let nano = |value: f64| json!(NANO * value);
     json!({
         "format": "apportion-scene",
         "version": 1,
         "title": story.title,
         "setting": setting,
         "geometry": {
-            "particle_radius_nm": nano(scene.particle_radius),
-            "tip_radius_nm": nano(scene.tip_radius),
-            "height_nm": nano(scene.height),
+            "particle_radius_nm": NANO * scene.particle_radius,
+            "tip_radius_nm": NANO * scene.tip_radius,
+            "height_nm": NANO * scene.height,
             "contact_angle_rad": scene.contact_angle,
-            "length_nm": nano(scene.length),
-            "width_nm": nano(scene.width),
-            "thickness_nm": nano(scene.thickness),
+            "length_nm": NANO * scene.length,
+            "width_nm": NANO * scene.width,
+            "thickness_nm": NANO * scene.thickness,
         },
         "critical": {
             "time_s": story.critical_time,
-            "critical_force_nN": nano(critical.critical_force),
-            "lateral_force_nN": nano(critical.lateral_force),
-            "normal_force_nN": nano(critical.normal_force),
+            "critical_force_nN": NANO * critical.critical_force,
+            "lateral_force_nN": NANO * critical.lateral_force,
+            "normal_force_nN": NANO * critical.normal_force,
         },
         "samples": samples,
     })

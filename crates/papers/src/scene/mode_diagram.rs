@@ -52,12 +52,12 @@ pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Chart {
 /// Says which modes begin at the scene's own angle, the one of the smallest force first.
 fn caption(diagram: &ModeDiagram) -> String {
     let (slip_angle, slip_force) = diagram.slip;
-    let own = diagram.angle.iter().position(|angle| *angle == slip_angle);
-    let at = |line: &ModeLine| Some((line.name.clone(), line.force[own?]?));
-    let mut modes: Vec<(String, f64)> = diagram.forces.iter().filter_map(at).collect();
+    let slip = diagram.angle.iter().position(|angle| *angle == slip_angle);
+    let mut modes: Vec<(&str, f64)> =
+        diagram.forces.iter().filter_map(|line| Some((line.name.as_str(), line.force[slip?]?))).collect();
     modes.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
-    let modes = if said.is_empty() { "no mode".to_owned() } else { said.join(", ") };
+    let modes: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
+    let modes = if modes.is_empty() { "no mode".to_owned() } else { modes.join(", ") };
     let angle = short(slip_angle.to_degrees());
     format!("At {angle}° set in: {modes}; the scene slips at {angle}° and {}.", force(slip_force))
 }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
-use super::{SceneSample, SceneStory};
+use super::story::{SceneSample, SceneStory};
 
 /// The parts of the page's script; each uses the ones before it.
 const SCRIPT: [&str; 4] = [
@@ -82,13 +82,14 @@ impl View {
     /// Chooses factors with which the probe leans by at most 0.25 rad (or a quarter of its height) and the particle
     /// moves at most 0.8 of its radius.
     fn new(story: &SceneStory) -> Self {
-        let largest = |read: fn(&SceneSample) -> f64| {
+        const READS: [fn(&SceneSample) -> f64; 4] =
+            [|s| s.twist, |s| s.lateral_deflection, |s| s.particle, |s| s.substrate];
+        let [twist, deflection, particle, substrate] = READS.map(|read| {
             let sizes = story.samples.iter().map(|sample| read(sample).abs()).filter(|size| size.is_finite());
             sizes.fold(0.0, f64::max)
-        };
-        let lean = largest(|s| s.twist).max(largest(|s| s.lateral_deflection) / story.scene.height);
-        let particle = largest(|s| s.particle);
-        let travel = if particle > 0.0 { particle } else { largest(|s| s.substrate) };
+        });
+        let lean = twist.max(deflection / story.scene.height);
+        let travel = if particle > 0.0 { particle } else { substrate };
         Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.scene.particle_radius / travel) }
     }
 
@@ -104,14 +105,11 @@ impl View {
 }
 
 fn factor(factor: f64) -> String {
-    let times = |times: f64| if times < 1e6 { format!("{times} times") } else { format!("{times:e} times") };
     if factor == 1.0 {
-        "to scale".to_owned()
-    } else if factor > 1.0 {
-        format!("exaggerated {}", times(factor))
-    } else {
-        format!("reduced {}", times((1.0 / factor).round()))
+        return "to scale".to_owned();
     }
+    let (verb, times) = if factor > 1.0 { ("exaggerated", factor) } else { ("reduced", (1.0 / factor).round()) };
+    if times < 1e6 { format!("{verb} {times} times") } else { format!("{verb} {times:e} times") }
 }
 
 /// Returns the largest of 1, 2, 5, 10, 20, ... (or their inverses) not above `limit`; 1 if the limit is not positive.

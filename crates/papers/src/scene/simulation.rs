@@ -8,7 +8,9 @@ use apportion_report::chart::{Colour, Stroke};
 use apportion_report::with_unit;
 use thiserror::Error;
 
-use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
+use super::charts::law_colour;
+use super::mode_diagram::{ModeDiagram, ModeLine};
+use super::story::{SceneSample, SceneStory};
 
 /// Why a study cannot be simulated in time.
 #[derive(Debug, Error)]
@@ -80,18 +82,14 @@ pub(crate) fn pushing(scene: Scene, options: &Options) -> Pushing {
 
 fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failure> {
     let force = TipForce { normal: sample.normal_force, lateral: sample.lateral_force };
-    // A contact that is pulled apart cannot slip, roll or spin.
-    let moves = |mode| match pushing.balance(mode, force) {
-        Ok(balance) => Ok(balance.moves()),
-        Err(Failure::BeyondPullOff) => Ok(false),
-        Err(failure) => Err(failure),
-    };
-    Ok(SceneSample {
-        state: *sample,
-        tip_slip: moves(Mode::TipSlip)?,
-        rolling: moves(Mode::Roll)?,
-        spin: moves(Mode::Spin)?,
-    })
+    let [tip_slip, rolling, spin] =
+        [Mode::TipSlip, Mode::Roll, Mode::Spin].map(|mode| match pushing.balance(mode, force) {
+            Ok(balance) => Ok(balance.moves()),
+            // A contact that is pulled apart cannot slip, roll or spin.
+            Err(Failure::BeyondPullOff) => Ok(false),
+            Err(failure) => Err(failure),
+        });
+    Ok(SceneSample { state: *sample, tip_slip: tip_slip?, rolling: rolling?, spin: spin? })
 }
 
 fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
@@ -103,13 +101,13 @@ fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
         // The history is quasi-static for any fidelity of the study's critical forces.
         ("motion", Fidelity::QuasiStatic.name()),
     ];
-    let value = |parameter: &Parameter| {
+    let mut setting = choices.map(|(label, choice)| (label.to_owned(), choice.to_owned())).to_vec();
+    for parameter in Parameter::ALL {
         let unit = edge_unit(parameter);
-        let text = with_unit(unit.from_si((parameter.get)(scene)), unit.symbol());
-        (parameter.name.replace('_', " "), text)
-    };
-    let choices = choices.into_iter().map(|(label, choice)| (label.to_owned(), choice.to_owned()));
-    choices.chain(Parameter::ALL.iter().map(value)).collect()
+        let value = with_unit(unit.from_si((parameter.get)(scene)), unit.symbol());
+        setting.push((parameter.name.replace('_', " "), value));
+    }
+    setting
 }
 
 /// Number of angles in the mode diagram.
@@ -137,10 +135,10 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);
     let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
-    let line = |(&mode, colour): (&Mode, Colour)| {
+    let mut forces = Vec::new();
+    for (&mode, colour) in Mode::ALL.iter().zip(colours) {
         let force = angle.iter().map(|psi| pushing.critical_tip_force(mode, *psi)).collect::<Result<_, Failure>>()?;
-        Ok(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force })
-    };
-    let forces = Mode::ALL.iter().zip(colours).map(line).collect::<Result<_, Failure>>()?;
+        forces.push(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force });
+    }
     Ok(ModeDiagram { angle, forces, slip: (critical.force_angle(), critical.critical_force) })
 }

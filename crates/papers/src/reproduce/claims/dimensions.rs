@@ -2,9 +2,10 @@
 
 use apportion_afm::{Failure, FrictionLaw, Options, Scene};
 
-use super::bench::{Bench, Curve, Sizes, Sweep, closed, exact};
+use super::context::{ClaimContext, Sizes, Sweep, closed, exact};
+use super::curve::Curve;
 use super::judge::{Answer, change, nano, number};
-use crate::reproduce::FRICTIONS;
+use crate::reproduce::studies::FRICTIONS;
 
 /// Maximum increase of steepness of a flattening curve from one step to the next, as a share of the mean steepness: it
 /// would not be visible in a chart.
@@ -20,47 +21,54 @@ pub(super) const NO_EFFECT: f64 = 0.01;
 /// The options for a friction law, by a rung.
 type OptionsOf = fn(FrictionLaw) -> Options;
 /// A description of a curve.
-type CurveWords<'a> = &'a dyn Fn(&Curve) -> String;
+type CurveWords = fn(&Curve) -> String;
 
 /// Checks a claim about the shape of the curves of the closed formulas along a factor, and describes the curves.
-fn shaped(bench: &Bench<'_>, factor: &str, shape: fn(&Curve) -> bool, words: CurveWords<'_>) -> anyhow::Result<Answer> {
-    let sweep = bench.over(factor);
-    let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
-    let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
+fn shaped(
+    context: &ClaimContext<'_>,
+    factor: &str,
+    shape: fn(&Curve) -> bool,
+    words: CurveWords,
+) -> anyhow::Result<Answer> {
+    let sweep = context.over(factor);
+    let parts = context.parts_under(
+        &FRICTIONS,
+        "",
+        |_| context.sizes.points,
+        |law, scene| Ok(shape(&context.curve(&sweep, scene, &closed(law))?)),
+    )?;
     let words = [
         ("sweep", sweep.words()),
-        ("curves", nominal_curves(bench, &sweep, closed, words)?),
-        ("closed", closed_setting(bench, &sweep)?),
+        ("curves", nominal_curves(context, &sweep, closed, words)?),
+        ("closed", closed_setting(context, &sweep)?),
         ("steepening", change(STEEPENING)),
         ("straight", change(STRAIGHT)),
     ];
-    Ok(Answer::judged(&holdings, words))
+    Ok(Answer::judged(&parts, words))
 }
 
 /// Describes the nominal curve under each friction model.
 pub(super) fn nominal_curves(
-    bench: &Bench<'_>,
+    context: &ClaimContext<'_>,
     sweep: &Sweep,
     options: OptionsOf,
-    words: CurveWords<'_>,
+    words: CurveWords,
 ) -> Result<String, Failure> {
-    let each: Result<Vec<String>, Failure> = FRICTIONS
-        .iter()
-        .map(|friction| {
-            let curve = bench.curve(sweep, &Scene::default(), &options(friction.law))?;
-            Ok(format!("{} ({})", words(&curve), friction.name))
-        })
-        .collect();
-    Ok(each?.join(", "))
+    let mut curves = Vec::new();
+    for friction in FRICTIONS {
+        let curve = context.curve(sweep, &Scene::default(), &options(friction.law))?;
+        curves.push(format!("{} ({})", words(&curve), friction.name));
+    }
+    Ok(curves.join(", "))
 }
 
 /// Describes the setting of a claim about closed formulas along a sweep, ending in a semicolon.
-pub(super) fn closed_setting(bench: &Bench<'_>, sweep: &Sweep) -> Result<String, Failure> {
+pub(super) fn closed_setting(context: &ClaimContext<'_>, sweep: &Sweep) -> Result<String, Failure> {
     let mut farthest = 0.0_f64;
     for law in FRICTIONS.map(|friction| friction.law) {
         let ends = Sweep { count: 3, ..*sweep };
-        let formula = bench.curve(&ends, &Scene::default(), &closed(law))?;
-        let geometry = bench.curve(&ends, &Scene::default(), &exact(law))?;
+        let formula = context.curve(&ends, &Scene::default(), &closed(law))?;
+        let geometry = context.curve(&ends, &Scene::default(), &exact(law))?;
         for (a, b) in formula.y.iter().zip(&geometry.y) {
             farthest = farthest.max((a / b - 1.0).abs());
         }
@@ -72,7 +80,7 @@ pub(super) fn closed_setting(bench: &Bench<'_>, sweep: &Sweep) -> Result<String,
         sweep.count,
         sweep.parameter.name.replace('_', " "),
         sweep.words(),
-        bench.sizes.points
+        context.sizes.points
     ))
 }
 
@@ -81,8 +89,8 @@ pub(super) fn from_to(curve: &Curve) -> String {
 }
 
 /// Checks claim 8.
-pub(super) fn length(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    shaped(bench, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, &from_to)
+pub(super) fn length(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    shaped(context, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, from_to)
 }
 
 /// Returns whether a curve rises in a straight line.
@@ -91,8 +99,8 @@ pub(super) fn is_linear_rise(curve: &Curve) -> bool {
 }
 
 /// Checks claim 9.
-pub(super) fn width(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    shaped(bench, "width", is_linear_rise, &straightness)
+pub(super) fn width(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    shaped(context, "width", is_linear_rise, straightness)
 }
 
 /// Describes the ends of a rise, and its distance from a straight line.
@@ -103,23 +111,30 @@ pub(super) fn straightness(curve: &Curve) -> String {
 }
 
 /// Checks claim 10.
-pub(super) fn thickness(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
-    shaped(bench, "thickness", |curve| curve.rises() && curve.elasticity() > 1.0, &words)
+pub(super) fn thickness(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    shaped(
+        context,
+        "thickness",
+        |curve| curve.rises() && curve.elasticity() > 1.0,
+        |curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), "")),
+    )
 }
 
 /// Checks claim 11. The closed form does not contain the height, so only exact geometry can decide.
-pub(super) fn height(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    without_effect(bench, &Sweep { count: 4, ..bench.over("height") }, exact)
+pub(super) fn height(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    without_effect(context, &Sweep { count: 4, ..context.over("height") }, exact)
 }
 
 /// Checks the claim that a sweep does not change F_cr.
-pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> anyhow::Result<Answer> {
-    let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
+pub(super) fn without_effect(context: &ClaimContext<'_>, sweep: &Sweep, options: OptionsOf) -> anyhow::Result<Answer> {
     // Computations without a closed formula are slow, the ramps of LuGre friction most of all.
-    let Sizes { slow_points, ramp_points, .. } = bench.sizes;
-    let points = |law| if law == FrictionLaw::LuGre { ramp_points } else { slow_points };
-    let holdings = bench.holding_under(&FRICTIONS, "", points, rule)?;
+    let Sizes { slow_points, ramp_points, .. } = context.sizes;
+    let parts = context.parts_under(
+        &FRICTIONS,
+        "",
+        |law| if law == FrictionLaw::LuGre { ramp_points } else { slow_points },
+        |law, scene| Ok(context.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT),
+    )?;
     let unmoved = format!(
         "{} values of the {} from {}, at the nominal scene and at {slow_points} points of the general study's box \
          ({ramp_points} under LuGre friction); no effect means a change by less than {}.",
@@ -128,6 +143,6 @@ pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsO
         sweep.words(),
         change(NO_EFFECT)
     );
-    let curves = nominal_curves(bench, sweep, options, &|curve| change(curve.spread()))?;
-    Ok(Answer::judged(&holdings, [("sweep", sweep.words()), ("curves", curves), ("unmoved", unmoved)]))
+    let curves = nominal_curves(context, sweep, options, |curve| change(curve.spread()))?;
+    Ok(Answer::judged(&parts, [("sweep", sweep.words()), ("curves", curves), ("unmoved", unmoved)]))
 }

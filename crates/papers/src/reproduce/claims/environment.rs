@@ -2,12 +2,13 @@
 
 use apportion_afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
-use super::bench::{Bench, Sweep, closed, exact, in_motion};
+use super::context::{ClaimContext, Sweep, closed, exact, in_motion};
+use super::curve::Curve;
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
-use super::judge::{Answer, Holding, change, nano};
-use crate::reproduce::FRICTIONS;
+use super::judge::{Answer, change, nano};
+use crate::reproduce::studies::FRICTIONS;
 
 /// Velocity up to which CHK and LG see no effect (m/s).
 const SLOW: f64 = 600e-9;
@@ -21,41 +22,42 @@ const UNMOVED: f64 = 0.05;
 const VISCOUS: f64 = 0.3;
 
 /// Checks claim 7: which friction model holds the particle less.
-pub(super) fn weaker_law(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
-    let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
+pub(super) fn weaker_law(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
     // All samples of a box share the scrambles, so that they differ only by their factors.
-    let points = bench.sizes.points;
-    let general = bench.share(None, points, &below)?;
-    let dimensional = bench.share(Some("dimensional"), points, &below)?;
-    let environmental = bench.share(Some("environmental"), points, &below)?;
+    let points = context.sizes.points;
+    let part =
+        context.part("F_cr(Hurtado-Kim) < F_cr(Coulomb)", points, |scene| is_hurtado_kim_weaker(context, scene))?;
+    let dimensional = context.share(Some("dimensional"), points, |scene| is_hurtado_kim_weaker(context, scene))?;
+    let environmental = context.share(Some("environmental"), points, |scene| is_hurtado_kim_weaker(context, scene))?;
     let nominal = Scene::default();
-    let holding =
-        Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
     let words = [
-        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
-        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
-        ("general", general.words_of("the box of the general study")),
+        ("hurtado_kim", nano(context.force(&nominal, &closed(FrictionLaw::HurtadoKim))?, "N")),
+        ("coulomb", nano(context.force(&nominal, &closed(FrictionLaw::Coulomb))?, "N")),
+        ("general", part.share.words_of("the box of the general study")),
         ("dimensional", dimensional.words_of("that of the dimensional study")),
         ("environmental", environmental.words_of("that of the environmental study")),
         ("each", (points / 8).to_string()),
     ];
-    Ok(Answer::judged(&[holding], words))
+    Ok(Answer::judged(&[part], words))
+}
+
+fn is_hurtado_kim_weaker(context: &ClaimContext<'_>, scene: &Scene) -> Result<bool, Failure> {
+    Ok(context.force(scene, &closed(FrictionLaw::HurtadoKim))? < context.force(scene, &closed(FrictionLaw::Coulomb))?)
 }
 
 /// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
-pub(super) fn velocity(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let whole = Sweep { count: 5, ..bench.over("velocity") };
-    let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
-    let mut answer = without_effect(bench, &slow, in_motion)?;
+pub(super) fn velocity(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    let full_range = Sweep { count: 5, ..context.over("velocity") };
+    let slow = Sweep { range: (0.0, SLOW), count: 4, ..full_range };
+    let mut answer = without_effect(context, &slow, in_motion)?;
     let nominal = Scene::default();
     let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
-    let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
+    let viscous = context.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
     let naive = Options { fidelity: Fidelity::FixedStep, ..exact(FrictionLaw::Coulomb) };
-    let naive_curve = bench.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
+    let naive_curve = context.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
     answer.words.extend([
-        ("whole", whole.words()),
-        ("beyond", nominal_curves(bench, &whole, in_motion, &|curve| change(curve.spread()))?),
+        ("whole", full_range.words()),
+        ("beyond", nominal_curves(context, &full_range, in_motion, |curve| change(curve.spread()))?),
         ("viscous", change(viscous.spread())),
         ("coefficient", VISCOUS.to_string()),
         ("naive", change(naive_curve.spread())),
@@ -66,102 +68,112 @@ pub(super) fn velocity(bench: &Bench<'_>) -> anyhow::Result<Answer> {
 }
 
 /// Checks claim 13.
-pub(super) fn elastic_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let sweep = bench.over("elastic_modulus");
-    let points = bench.sizes.points;
-    let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
-    let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
-    let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
-    let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
-    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
+pub(super) fn elastic_modulus(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    let sweep = context.over("elastic_modulus");
+    let points = context.sizes.points;
+    let mut parts = context.parts_under(
+        &FRICTIONS,
+        "linear rise under ",
+        |_| points,
+        |law, scene| Ok(is_linear_rise(&context.curve(&sweep, scene, &closed(law))?)),
+    )?;
+    let coulomb = closed(FrictionLaw::Coulomb);
+    parts.push(context.part("divergence of Coulomb and Hurtado-Kim", points, |scene| {
+        Ok(gaps(context, &sweep, scene, &coulomb)?.rises())
+    })?);
     let words = [
         ("sweep", sweep.words()),
-        ("curves", nominal_curves(bench, &sweep, closed, &straightness)?),
-        ("gap", from_to(&bench.curve_of(&sweep, &Scene::default(), &gap)?)),
-        ("closed", closed_setting(bench, &sweep)?),
+        ("curves", nominal_curves(context, &sweep, closed, straightness)?),
+        ("gap", from_to(&gaps(context, &sweep, &Scene::default(), &coulomb)?)),
+        ("closed", closed_setting(context, &sweep)?),
         ("straight", change(STRAIGHT)),
     ];
-    Ok(Answer::judged(&holdings, words))
+    Ok(Answer::judged(&parts, words))
 }
 
-/// Returns F_cr under Coulomb friction with these options, minus that under Hurtado-Kim friction (N).
-fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failure> {
-    Ok(bench.force(scene, coulomb)? - bench.force(scene, &closed(FrictionLaw::HurtadoKim))?)
+/// Returns the distance of F_cr under Coulomb friction with these options from that under Hurtado-Kim friction (N).
+fn gaps(context: &ClaimContext<'_>, sweep: &Sweep, scene: &Scene, coulomb: &Options) -> Result<Curve, Failure> {
+    context.curve_of(sweep, scene, |scene| {
+        Ok((context.force(scene, coulomb)? - context.force(scene, &closed(FrictionLaw::HurtadoKim))?).abs())
+    })
 }
 
 /// Checks claim 14.
-pub(super) fn contact_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let sweep = bench.over("equivalent_modulus");
-    let points = bench.sizes.points;
+pub(super) fn contact_modulus(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    let sweep = context.over("equivalent_modulus");
+    let points = context.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
-    let unmoved = |scene: &Scene| Ok(bench.curve(&sweep, scene, &coulomb)?.spread() < UNMOVED);
-    let falls = |scene: &Scene| Ok(bench.curve(&sweep, scene, &hurtado_kim)?.falls());
-    let holdings =
-        [bench.holding("Coulomb unmoved", points, &unmoved)?, bench.holding("Hurtado-Kim falling", points, &falls)?];
+    let parts = [
+        context
+            .part("Coulomb unmoved", points, |scene| Ok(context.curve(&sweep, scene, &coulomb)?.spread() < UNMOVED))?,
+        context.part("Hurtado-Kim falling", points, |scene| Ok(context.curve(&sweep, scene, &hurtado_kim)?.falls()))?,
+    ];
     let nominal = Scene::default();
-    let (flat, falling) = (bench.curve(&sweep, &nominal, &coulomb)?, bench.curve(&sweep, &nominal, &hurtado_kim)?);
+    let (flat, falling) = (context.curve(&sweep, &nominal, &coulomb)?, context.curve(&sweep, &nominal, &hurtado_kim)?);
     let words = [
         ("sweep", sweep.words()),
         ("flat", from_to(&flat)),
         ("flat_change", change(flat.spread())),
         ("falling", from_to(&falling)),
         ("falling_change", change(falling.spread())),
-        ("closed", closed_setting(bench, &sweep)?),
+        ("closed", closed_setting(context, &sweep)?),
         ("least", change(UNMOVED)),
     ];
-    Ok(Answer::judged(&holdings, words))
+    Ok(Answer::judged(&parts, words))
 }
 
 /// Checks claim 15.
-pub(super) fn adhesion(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let sweep = bench.over("adhesion");
-    let points = bench.sizes.points;
-    let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
-    let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
+pub(super) fn adhesion(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
+    let sweep = context.over("adhesion");
+    let points = context.sizes.points;
+    let mut parts = context.parts_under(
+        &FRICTIONS[..2],
+        "rise under ",
+        |_| points,
+        |law, scene| Ok(context.curve(&sweep, scene, &closed(law))?.rises()),
+    )?;
     let coulomb = closed(FrictionLaw::Coulomb);
-    let distance = |scene: &Scene| Ok(gap(bench, scene, &coulomb)?.abs());
-    let approach = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &distance)?.falls());
-    holdings.push(bench.holding("approach", points, &approach)?);
+    parts.push(context.part("approach", points, |scene| Ok(gaps(context, &sweep, scene, &coulomb)?.falls()))?);
     let nominal = Scene::default();
     let loaded = Options { adhesion_in_load: true, ..coulomb };
-    let loaded_distance = |scene: &Scene| Ok(gap(bench, scene, &loaded)?.abs());
     let words = [
         ("sweep", sweep.words()),
-        ("coulomb", from_to(&bench.curve(&sweep, &nominal, &coulomb)?)),
-        ("hurtado_kim", from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?)),
-        ("gap", from_to(&bench.curve_of(&sweep, &nominal, &distance)?)),
-        ("loaded_gap", from_to(&bench.curve_of(&sweep, &nominal, &loaded_distance)?)),
-        ("closed", closed_setting(bench, &sweep)?),
+        ("coulomb", from_to(&context.curve(&sweep, &nominal, &coulomb)?)),
+        ("hurtado_kim", from_to(&context.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?)),
+        ("gap", from_to(&gaps(context, &sweep, &nominal, &coulomb)?)),
+        ("loaded_gap", from_to(&gaps(context, &sweep, &nominal, &loaded)?)),
+        ("closed", closed_setting(context, &sweep)?),
     ];
-    Ok(Answer::judged(&holdings, words))
+    Ok(Answer::judged(&parts, words))
 }
 
 /// Checks claim 16.
-pub(super) fn constant_parameters(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+pub(super) fn constant_parameters(context: &ClaimContext<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };
     let loaded = Options { adhesion_in_load: true, ..options };
-    let mut holdings = Vec::new();
+    let mut parts = Vec::new();
     let mut findings = Vec::new();
     for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
-        let sweep = bench.over(name);
-        let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
-        holdings.push(bench.holding(&format!("{symbol} invisible"), bench.sizes.points, &rule)?);
+        let sweep = context.over(name);
+        parts.push(context.part(&format!("{symbol} invisible"), context.sizes.points, |scene| {
+            Ok(context.curve(&sweep, scene, &options)?.spread() < NO_EFFECT)
+        })?);
         let few = Sweep { count: 4, ..sweep };
         findings.push(format!(
             "{symbol} of {} changes F_cr by {} (by {} with bristles that follow the contact, by {} with the pull-off force \
              in the load)",
             sweep.words(),
-            change(bench.curve(&sweep, &nominal, &options)?.spread()),
-            change(bench.curve(&few, &nominal, &from_contact)?.spread()),
-            change(bench.curve(&sweep, &nominal, &loaded)?.spread())
+            change(context.curve(&sweep, &nominal, &options)?.spread()),
+            change(context.curve(&few, &nominal, &from_contact)?.spread()),
+            change(context.curve(&sweep, &nominal, &loaded)?.spread())
         ));
     }
     let words = [
-        ("force", nano(bench.force(&nominal, &options)?, "N")),
+        ("force", nano(context.force(&nominal, &options)?, "N")),
         ("changes", findings.join("; ")),
         ("no_effect", change(NO_EFFECT)),
     ];
-    Ok(Answer::judged(&holdings, words))
+    Ok(Answer::judged(&parts, words))
 }

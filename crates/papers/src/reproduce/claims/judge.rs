@@ -2,11 +2,10 @@
 
 use apportion::uncertainty::Interval;
 use apportion_report::format::minus;
-use apportion_report::{fixed, significant, with_unit};
+use apportion_report::{fixed, with_unit};
 
-use super::Verdict;
-use crate::reproduce::named_together;
-use crate::reproduce::papers::Words;
+use super::verdict::Verdict;
+use crate::reproduce::words::{Words, named_together};
 
 /// The share of a box where a rule holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,21 +17,21 @@ pub(super) struct Share {
 
 impl Share {
     /// Formats it as in `83.2 % [82.9, 83.5] of the box`; `all of the box` only if no point failed.
-    pub fn words_of(&self, whole: &str) -> String {
+    pub fn words_of(&self, region: &str) -> String {
         match (self.value, self.interval) {
-            (1.0, _) => format!("all of {whole}"),
-            (0.0, _) => format!("none of {whole}"),
+            (1.0, _) => format!("all of {region}"),
+            (0.0, _) => format!("none of {region}"),
             (value, Some(i)) if i.high > i.low => {
-                format!("{} % [{}, {}] of {whole}", percent_of(value), percent_of(i.low), percent_of(i.high))
+                format!("{} % [{}, {}] of {region}", percent_of(value), percent_of(i.low), percent_of(i.high))
             }
-            (value, _) => format!("{} % of {whole}", percent_of(value)),
+            (value, _) => format!("{} % of {region}", percent_of(value)),
         }
     }
 }
 
 /// One part of a claim: whether it holds at the nominal scene, and on what share of the box.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Holding {
+pub(super) struct ClaimPart {
     /// The part, such as a friction model.
     pub what: String,
     pub nominal: bool,
@@ -50,16 +49,16 @@ pub(super) struct Answer {
 impl Answer {
     /// Creates the verdict on a claim: reproduced if every part holds at the nominal scene, which is that of the papers'
     /// figures. With it comes the part of the box where it holds.
-    pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
-        let verdict = Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal));
-        Self { verdict, range: over_ranges(holdings), words: words.into() }
+    pub fn judged(parts: &[ClaimPart], words: impl Into<Words>) -> Self {
+        let verdict = Verdict::reproduced_if(parts.iter().all(|part| part.nominal));
+        Self { verdict, range: over_ranges(parts), words: words.into() }
     }
 }
 
-/// Says on what share of the whole ranges each part holds, in one line; parts with the same share are named together.
-pub(super) fn over_ranges(holdings: &[Holding]) -> String {
+/// Says on what share of the ranges each part holds, in one line; parts with the same share are named together.
+pub(super) fn over_ranges(parts: &[ClaimPart]) -> String {
     let shares =
-        named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words_of("the box"), what.as_str())));
+        named_together(parts.iter().map(|ClaimPart { what, share, .. }| (share.words_of("the box"), what.as_str())));
     match &shares[..] {
         [(words, _)] => words.clone(),
         _ => {
@@ -70,7 +69,11 @@ pub(super) fn over_ranges(holdings: &[Holding]) -> String {
 
 /// Rounds to three significant digits: the scene's constants justify no more.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let unit = libm::pow(10.0, libm::log10(value.abs()).floor() - 2.0);
+    (value / unit).round_ties_even() * unit
 }
 
 /// Formats an SI value in nano-units, with the unit: `631 nN`.
@@ -90,7 +93,8 @@ pub(super) fn number(value: f64, unit: &str) -> String {
 /// Formats a share in percent without the sign, to one decimal; two if it is close to 0 or 100 but neither.
 pub(super) fn percent_of(share: f64) -> String {
     let close = share > 0.0 && share < 1.0 && !(0.01..=0.99).contains(&share);
-    significant(fixed(100.0 * share, if close { 2 } else { 1 }).parse().unwrap_or(f64::NAN))
+    let text = fixed(100.0 * share, if close { 2 } else { 1 });
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Formats a relative change in percent, `1.9 %`; as a power of ten if it is too small.

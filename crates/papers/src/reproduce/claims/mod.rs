@@ -5,24 +5,28 @@
 //! study's box where it holds is stated with it. Nothing is entered by hand: if the tests replace the physics, the
 //! verdicts change.
 
-mod bench;
+mod context;
+mod curve;
 mod dimensions;
 mod environment;
 mod in_time;
 mod judge;
 mod modes;
 mod shares;
+mod verdict;
 
 #[cfg(test)]
 mod tests;
 
 use apportion::result::json;
-use bench::{Bench, Physics};
+use context::{ClaimContext, Physics};
 use judge::Answer;
 use serde::Serialize;
+pub use verdict::Verdict;
 
-use super::papers::{PaperClaim, filled, papers};
-use super::{Effort, Reproduced};
+use super::papers::papers;
+use super::studies::{Effort, Reproduced};
+use super::words::filled;
 
 /// A claim of the papers with our verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -46,39 +50,8 @@ pub struct Claim {
     pub figures: &'static [&'static str],
 }
 
-/// The verdict on a claim.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(tag = "verdict", rename_all = "kebab-case")]
-pub enum Verdict {
-    /// Every part of it holds.
-    Reproduced,
-    /// Some part of it does not hold.
-    NotReproduced,
-    /// A number or figure of the same paper contradicts it.
-    Contradicted {
-        /// The number or figure.
-        own: String,
-    },
-}
-
-impl Verdict {
-    /// Returns `Reproduced` if the claim holds.
-    fn reproduced_if(holds: bool) -> Self {
-        if holds { Self::Reproduced } else { Self::NotReproduced }
-    }
-
-    /// Returns the verdict in words: `reproduced`, `not reproduced`, `contradicted`.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Self::Reproduced => "reproduced",
-            Self::NotReproduced => "not reproduced",
-            Self::Contradicted { .. } => "contradicted",
-        }
-    }
-}
-
 /// A function that checks a claim.
-type Check = fn(&Bench<'_>) -> anyhow::Result<Answer>;
+type Check = fn(&ClaimContext<'_>) -> anyhow::Result<Answer>;
 
 /// The checks by their names in `papers.toml`.
 const CHECKS: [(&str, Check); 25] = [
@@ -99,12 +72,12 @@ const CHECKS: [(&str, Check); 25] = [
     ("contact_modulus", environment::contact_modulus),
     ("adhesion", environment::adhesion),
     ("constant_parameters", environment::constant_parameters),
-    ("dimensional_order", |bench| shares::order(bench, "dimensional")),
-    ("dimensional_percentage", |bench| shares::printed_percentages(bench, "dimensional", None)),
+    ("dimensional_order", |context| shares::order(context, "dimensional")),
+    ("dimensional_percentage", |context| shares::printed_percentages(context, "dimensional", None)),
     ("most_effective", shares::most_effective),
-    ("environmental_order", |bench| shares::order(bench, "environmental")),
+    ("environmental_order", |context| shares::order(context, "environmental")),
     ("environmental_percentages", shares::environmental_percentages),
-    ("general_order", |bench| shares::order(bench, "general")),
+    ("general_order", |context| shares::order(context, "general")),
     ("general_percentages", shares::general_percentages),
     ("outweigh", shares::outweigh),
 ];
@@ -115,17 +88,17 @@ const CHECKS: [(&str, Check); 25] = [
 /// # Errors
 /// An error if a study is missing or has no indices, or a scene has no critical force.
 pub fn claims(studies: &[Reproduced], effort: Effort) -> anyhow::Result<Vec<Claim>> {
-    answered(&Bench::new(Physics::ours(), effort, studies), &(1..=20))
+    answered(&ClaimContext::new(Physics::ours(), effort, studies), &(1..=20))
 }
 
 /// Checks the claims whose numbers are in `numbers`.
-fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> anyhow::Result<Vec<Claim>> {
-    let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
-    let claim = |claim: &'static PaperClaim| {
+fn answered(context: &ClaimContext<'_>, numbers: &std::ops::RangeInclusive<usize>) -> anyhow::Result<Vec<Claim>> {
+    let mut claims = Vec::new();
+    for claim in papers().claims.iter().filter(|claim| numbers.contains(&claim.number)) {
         let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
-        let Answer { verdict, range, mut words } = check(bench)?;
-        words.extend(bench.sizes.words());
-        Ok(Claim {
+        let Answer { verdict, range, mut words } = check(context)?;
+        words.extend(context.sizes.words());
+        claims.push(Claim {
             number: claim.number,
             source: claim.source,
             statement: claim.statement,
@@ -134,9 +107,9 @@ fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> any
             finding: filled(&claim.finding, &words),
             setting: filled(&claim.setting, &words),
             figures: &claim.figures,
-        })
-    };
-    asked.map(claim).collect()
+        });
+    }
+    Ok(claims)
 }
 
 /// Formats the claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`],

@@ -6,9 +6,9 @@ use apportion_afm::history::{History, history};
 use apportion_afm::modes::{ModeConstants, Pushing};
 use apportion_afm::{Critical, Failure, FrictionLaw, Options, Scene, critical_force};
 
-use super::bench::{Bench, ForceOf, HistoryOf, Physics};
+use super::context::{ClaimContext, ForceOf, HistoryOf, Physics};
 use super::*;
-use crate::reproduce::studies;
+use crate::reproduce::studies::studies;
 
 /// The nine studies at 4096 base points: enough to decide every order, and quick.
 static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
@@ -23,8 +23,8 @@ static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
 
 /// The verdicts on claims by this physics.
 fn verdicts(physics: Physics<'_>, numbers: std::ops::RangeInclusive<usize>) -> Vec<(usize, &'static str)> {
-    let bench = Bench::new(physics, Effort::Quick, &[]);
-    answered(&bench, &numbers).unwrap().iter().map(|claim| (claim.number, claim.verdict.word())).collect()
+    let context = ClaimContext::new(physics, Effort::Quick, &[]);
+    answered(&context, &numbers).unwrap().iter().map(|claim| (claim.number, claim.verdict.word())).collect()
 }
 
 fn with_force(force: ForceOf<'_>) -> Physics<'_> {
@@ -123,11 +123,11 @@ fn a_history_that_runs_the_other_way_changes_verdicts() {
 #[test]
 fn percentages_contradict_each_other_only_under_a_product() {
     let last_half = |physics: Physics<'_>| {
-        let bench = Bench::new(physics, Effort::Quick, &NINE_STUDIES);
-        let claims = answered(&bench, &(19..=19)).unwrap();
+        let context = ClaimContext::new(physics, Effort::Quick, &NINE_STUDIES);
+        let claims = answered(&context, &(19..=19)).unwrap();
         claims.iter().rfind(|claim| claim.number == 19).unwrap().verdict.clone()
     };
-    assert!(matches!(last_half(Physics::ours()), Verdict::Contradicted { own } if own.contains("76 %")));
+    assert!(matches!(last_half(Physics::ours()), Verdict::Contradicted { by } if by.contains("76 %")));
     let bent = times(|scene, _| 1.0 + scene.velocity / 800e-9 * scene.length / 200e-6);
     assert_eq!(last_half(with_force(&bent)), Verdict::NotReproduced);
 }
@@ -136,7 +136,8 @@ fn percentages_contradict_each_other_only_under_a_product() {
 /// the published ones, and without intervals nothing is decided.
 #[test]
 fn other_shares_give_other_verdicts() {
-    let answers = |studies: &[Reproduced]| answered(&Bench::new(Physics::ours(), Effort::Quick, studies), &(17..=20));
+    let answers =
+        |studies: &[Reproduced]| answered(&ClaimContext::new(Physics::ours(), Effort::Quick, studies), &(17..=20));
     let words = |studies: &[Reproduced]| -> Vec<(usize, &str)> {
         answers(studies).unwrap().iter().map(|claim| (claim.number, claim.verdict.word())).collect()
     };

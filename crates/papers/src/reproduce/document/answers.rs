@@ -9,13 +9,8 @@ use apportion_report::{fixed, share_of_runs};
 
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::ranked;
-use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
-
-/// Formats an index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
-pub(in crate::reproduce) fn percent(index: f64) -> String {
-    let is_near_an_end = !(0.0995..=0.985).contains(&index);
-    format!("{} %", fixed(100.0 * index, usize::from(is_near_an_end)))
-}
+use crate::reproduce::studies::{FRICTIONS, GROUPS, Reproduced};
+use crate::reproduce::words::{named_together, percent};
 
 /// Returns what a factor explains alone and with its interactions.
 fn explained(effect: &EffectEstimates) -> (String, String) {
@@ -36,9 +31,10 @@ fn table(studies: &[Reproduced]) -> Part {
                    with theirs.";
     let mut rows = Table::from_rows(caption, GROUPS).text("", |group| Cell::marked(group.title, Mark::Strong));
     for friction in FRICTIONS {
-        let study = |group| studies.iter().find(|study| (study.group, study.friction) == (group, friction));
-        let cell = |group| study(group).map_or_else(|| "not run".into(), leader);
-        rows = rows.text(format!("{} friction", friction.name), cell);
+        rows = rows.text(format!("{} friction", friction.name), |group| {
+            let study = studies.iter().find(|study| (study.group, study.friction) == (group, friction));
+            study.map_or_else(|| "not run".into(), leader)
+        });
     }
     Table { on_phone: OnPhone::StackLabelled, ..rows.into() }.into()
 }
@@ -78,41 +74,42 @@ fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
 /// Formats the result of the general study in one sentence: `Thickness explains 33 % of the variance of the critical
 /// force alone and 67 % with its interactions under Coulomb friction; ...`.
 pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
-    let of_group = studies.iter().filter(|study| study.group == GROUPS[2]);
-    let leaders = of_group.filter_map(|study| {
+    let general = studies.iter().filter(|study| study.group == GROUPS[2]);
+    let leaders = general.filter_map(|study| {
         let (_, IndexRecord { factor, effect }) = *ranked(study).first()?;
         Some(((factor, explained(effect)), study.friction.name))
     });
-    let said = named_together(leaders).into_iter().enumerate().map(|(place, ((factor, explained), frictions))| {
-        let ((alone, together), factor, under) = (explained, words(factor), listed(&frictions));
-        match place {
-            0 => format!(
+    let mut statements = Vec::new();
+    for ((factor, (alone, together)), frictions) in named_together(leaders) {
+        let (factor, under) = (words(factor), listed(&frictions));
+        statements.push(match statements.is_empty() {
+            true => format!(
                 "{factor} explains {alone} of the variance of the critical force alone and {together} with its \
                  interactions under {under} friction"
             ),
-            _ => format!("{factor} {alone} and {together} under {under} friction"),
-        }
-    });
-    let said: Vec<String> = said.collect();
-    (!said.is_empty()).then(|| format!("{}.", capitalised(&said.join("; "))))
+            false => format!("{factor} {alone} and {together} under {under} friction"),
+        });
+    }
+    (!statements.is_empty()).then(|| format!("{}.", capitalised(&statements.join("; "))))
 }
 
 /// Lists the warnings of each study, a sentence each.
 pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
-    let said = |study: &Reproduced| -> Vec<String> {
-        let warnings = study.result.outputs.iter().flat_map(|output| output.warnings.iter());
-        warnings.map(|warning| format!("{}, {} study: {warning}.", study.friction.name, study.group.key)).collect()
-    };
-    studies.iter().flat_map(said).collect()
+    let mut cautions = Vec::new();
+    for study in studies {
+        for warning in study.result.outputs.iter().flat_map(|output| output.warnings.iter()) {
+            cautions.push(format!("{}, {} study: {warning}.", study.friction.name, study.group.key));
+        }
+    }
+    cautions
 }
 
 /// Tabulates the share of the runs on which each assumption of the model does not hold: a column for each flag that was
 /// raised in some study, a row for each study.
 pub fn validity(studies: &[Reproduced]) -> Option<Part> {
     let flags = &studies.first()?.result.validity;
-    let raised =
-        |place: &usize| studies.iter().any(|study| study.result.validity.get(*place).is_some_and(|f| f.runs > 0));
-    let places: Vec<usize> = (0..flags.len()).filter(raised).collect();
+    let mut places: Vec<usize> = (0..flags.len()).collect();
+    places.retain(|place| studies.iter().any(|study| study.result.validity.get(*place).is_some_and(|f| f.runs > 0)));
     if places.is_empty() {
         return None;
     }

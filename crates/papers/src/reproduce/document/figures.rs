@@ -2,10 +2,10 @@
 
 use apportion_report::document::{Figure, Link, Part, Section};
 
-use super::chart_file;
-use crate::reproduce::figures::{ANIMATION_STEM, PaperFigure};
+use crate::reproduce::figures::{ANIMATION_STEM, PaperFigure, chart_file};
 use crate::reproduce::papers::papers;
-use crate::reproduce::{GROUPS, Reproduction};
+use crate::reproduce::reproduction::Reproduction;
+use crate::reproduce::studies::GROUPS;
 use crate::scene::{SceneStory, player_page};
 
 /// The common sentences of the captions of all sweeps.
@@ -31,17 +31,19 @@ pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
     if figures.is_empty() {
         return Vec::new();
     }
-    let of = |paper: &str| {
-        let is_shown = |figure: &&PaperFigure| figure.label.starts_with(paper) && anchor(figure.stem) == figure.stem;
-        Part::Gallery(figures.iter().filter(is_shown).map(alone).collect())
-    };
     let rungs = Part::OnPage(vec![Part::Text(RUNGS.to_owned())]);
-    let in_time = [of("TS04")].into_iter().chain(reproduction.animation.as_ref().map(moving)).collect();
+    let in_time = [gallery(figures, "TS04")].into_iter().chain(reproduction.animation.as_ref().map(moving)).collect();
     vec![
-        Section::new("chk", "Figures of CHK: Coulomb and Hurtado-Kim friction", vec![rungs, of("CHK")]),
-        Section::new("lg", "Figures of LG: LuGre friction", vec![of("LG")]),
+        Section::new("chk", "Figures of CHK: Coulomb and Hurtado-Kim friction", vec![rungs, gallery(figures, "CHK")]),
+        Section::new("lg", "Figures of LG: LuGre friction", vec![gallery(figures, "LG")]),
         Section::new("ts04", "Figures of TS04: a push in time", in_time),
     ]
+}
+
+/// Shows the figures of a paper, without those that another figure includes.
+fn gallery(figures: &[PaperFigure], paper: &str) -> Part {
+    let of_paper = figures.iter().filter(|figure| figure.label.starts_with(paper));
+    Part::Gallery(of_paper.filter(|figure| anchor(figure.stem) == figure.stem).map(alone).collect())
 }
 
 /// Returns the figures that are only files, since another one shows them on the page.
@@ -74,21 +76,22 @@ fn theirs(figure: &PaperFigure) -> String {
 /// Draws all friction models in a group of studies, with the labels of the figures that the chart includes.
 fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
     let figure = figures.iter().find(|figure| figure.stem == group)?;
-    let members = || figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group);
-    let labels: Vec<&str> = members().map(|member| member.label.as_str()).collect();
-    let beside: Vec<String> = members().map(theirs).collect();
-    Some(Figure { label: labels.join(", "), beside: beside.join(" "), ..alone(figure) })
+    let (mut labels, mut statements) = (Vec::new(), Vec::new());
+    for member in figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group) {
+        labels.push(member.label.as_str());
+        statements.push(theirs(member));
+    }
+    Some(Figure { label: labels.join(", "), beside: statements.join(" "), ..alone(figure) })
 }
 
 /// Embeds the animation of the push.
 fn moving(story: &SceneStory) -> Part {
     let html = player_page(story);
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
-    let file = |ending: &str| chart_file(ANIMATION_STEM, ending);
     let links = Part::Links(vec![
-        Link::new("the animation as a separate page", file("html")),
-        Link::new("every state as CSV", file("csv")),
-        Link::new("as JSON", file("json")),
+        Link::new("the animation as a separate page", chart_file(ANIMATION_STEM, "html")),
+        Link::new("every state as CSV", chart_file(ANIMATION_STEM, "csv")),
+        Link::new("as JSON", chart_file(ANIMATION_STEM, "json")),
     ]);
     Part::Details { summary: "The scene in motion as an animation".to_owned(), parts: vec![frame, links] }
 }

@@ -4,19 +4,19 @@ mod answers;
 mod figures;
 mod verdicts;
 
-pub(super) use answers::percent;
-use apportion::space::Factor;
 use apportion_afm::Scene;
 use apportion_afm::modes::ModeConstants;
 use apportion_report::document::{DataFile, Document, Part, Report, Section, Table};
 use apportion_report::{grouped, with_unit};
 
 use super::claims::claims_json;
-use super::figures::ANIMATION_STEM;
-use super::papers::{Words, filled, papers};
+use super::figures::{ANIMATION_STEM, chart_file};
+use super::papers::papers;
 use super::percentages::{self, percentages_csv};
+use super::reproduction::Reproduction;
 use super::shares::shares_table;
-use super::{Effort, Reproduced, Reproduction, general_study};
+use super::studies::{Effort, Reproduced, general_study};
+use super::words::{Words, filled};
 use crate::scene::{player_page, scene_json, scene_table};
 
 /// Builds the document about `reproduction`; missing parts are omitted. Except for the times in the results, its files
@@ -56,41 +56,36 @@ pub fn document(reproduction: &Reproduction) -> Document {
 /// files too: the claims and the shares.
 fn files(reproduction: &Reproduction) -> Vec<DataFile> {
     let mut files = Vec::new();
-    let mut add = |name: String, text: String| files.push(DataFile { name, text });
     for study in &reproduction.studies {
-        add(format!("{}-{}.json", study.friction.key, study.group.key), study.result.json());
+        files.push((format!("{}-{}.json", study.friction.key, study.group.key), study.result.json()));
     }
     if !reproduction.claims.is_empty() {
-        add("claims.json".to_owned(), claims_json(&reproduction.claims));
-        add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
+        files.push(("claims.json".to_owned(), claims_json(&reproduction.claims)));
+        files.push(("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages)));
     }
     if let Some(story) = &reproduction.animation {
-        add(chart_file(ANIMATION_STEM, "html"), player_page(story));
-        add(chart_file(ANIMATION_STEM, "csv"), scene_table(story).csv());
-        add(chart_file(ANIMATION_STEM, "json"), scene_json(story));
+        files.push((chart_file(ANIMATION_STEM, "html"), player_page(story)));
+        files.push((chart_file(ANIMATION_STEM, "csv"), scene_table(story).csv()));
+        files.push((chart_file(ANIMATION_STEM, "json"), scene_json(story)));
     }
-    for figure in &reproduction.figures {
-        add(chart_file(figure.stem, "csv"), figure.csv.clone());
-    }
-    files
-}
-
-/// Returns the path of a file next to those of the chart `stem`.
-fn chart_file(stem: &str, ending: &str) -> String {
-    format!("charts/{stem}.{ending}")
+    files.extend(reproduction.figures.iter().map(|figure| (chart_file(figure.stem, "csv"), figure.csv.clone())));
+    files.into_iter().map(|(name, text)| DataFile { name, text }).collect()
 }
 
 /// Builds the tables of all indices, then the warnings.
 fn shares(studies: &[Reproduced]) -> Vec<Part> {
     let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
     let table = Table { file: "shares.csv".to_owned(), ..table };
-    let folded = |summary: &str, part| Part::Details { summary: summary.to_owned(), parts: vec![part] };
-    let mut parts = vec![folded("The indices and shares of every study", table.into())];
+    let mut parts = vec![details("The indices and shares of every study", table.into())];
     let validity = answers::validity(studies);
-    parts.extend(validity.map(|table| folded("How many runs lie outside the range of a theory", table)));
+    parts.extend(validity.map(|table| details("How many runs lie outside the range of a theory", table)));
     let cautions = answers::cautions(studies);
     parts.extend((!cautions.is_empty()).then_some(Part::List(cautions)));
     parts
+}
+
+fn details(summary: &str, part: Part) -> Part {
+    Part::Details { summary: summary.to_owned(), parts: vec![part] }
 }
 
 /// Describes designs, estimators, intervals and cost.
@@ -100,26 +95,29 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
         Effort::Quick => "quick: fewer points and repetitions, wider intervals",
     };
     let numbers = "the same on every machine and for any number of threads; only the times differ";
-    let of = &reproduction.studies[0].result.provenance;
+    let first = &reproduction.studies[0].result.provenance;
     let design = format!(
         "{} points, {} base samples in {} replicates, seed {}",
-        of.sampler, of.base_samples, of.replicates, of.seed
+        first.sampler, first.base_samples, first.replicates, first.seed
     );
     let mut rows = vec![
         ("effort", effort.to_owned()),
         ("numbers", numbers.to_owned()),
         ("design", design),
-        ("first-order estimator", of.first_order_estimator.clone()),
-        ("total estimator", of.total_estimator.clone()),
+        ("first-order estimator", first.first_order_estimator.clone()),
+        ("total estimator", first.total_estimator.clone()),
     ];
-    rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+    rows.extend(first.interval.clone().map(|words| ("95 % intervals", words)));
     let overrides = &reproduction.studies[0].result.study.overrides;
     if !overrides.is_empty() {
         rows.push(("changes on the command line", overrides.join(", ")));
     }
-    let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
-    let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
-    let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
+    let (mut runs, mut seconds) = (0, 0.0);
+    for study in &reproduction.studies {
+        runs += study.result.provenance.model_runs;
+        seconds += study.result.provenance.wall_seconds;
+    }
+    let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), first.threads);
     rows.push(("cost of the studies", cost));
     rows
 }
@@ -127,11 +125,10 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
 /// Returns the values of the scene that the studies use.
 fn used() -> Words {
     let (scene, modes) = (Scene::default(), ModeConstants::default());
-    let giga = |pascals: f64| with_unit((pascals / 1e7).round() / 100.0, "GPa");
     vec![
         ("shear_strength", with_unit(scene.shear_strength / 1e6, "MPa")),
-        ("shear_modulus", giga(scene.effective_shear_modulus())),
-        ("elastic_modulus", giga(scene.elastic_modulus)),
+        ("shear_modulus", in_gpa(scene.effective_shear_modulus())),
+        ("elastic_modulus", in_gpa(scene.elastic_modulus)),
         ("viscous_friction", format!("{:e}", scene.viscous_friction)),
         ("tip_friction", modes.tip_friction.to_string()),
         ("rolling_shift", with_unit(modes.rolling_shift * 1e9, "nm")),
@@ -139,6 +136,11 @@ fn used() -> Words {
         ("particle_ratio", scene.particle_poisson_ratio.to_string()),
         ("substrate_ratio", scene.substrate_poisson_ratio.to_string()),
     ]
+}
+
+/// Formats a modulus (Pa) to a hundredth of a GPa.
+fn in_gpa(pascals: f64) -> String {
+    with_unit((pascals / 1e7).round() / 100.0, "GPa")
 }
 
 /// Builds the section of the constants that the papers print, those that are used, and the reasons; and the ranges.
@@ -151,17 +153,15 @@ fn constants() -> Section {
         .text("printed", |constant| constant.printed)
         .text("used", |constant| filled(constant.used, &words))
         .text("why", |constant| constant.why);
-    let range = |factor: &Factor| {
-        let (low, high) = factor.distribution().support();
-        format!("{low} to {high} {}", factor.unit())
-    };
     let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
     let study = general_study();
     let ranges = Table::from_rows(caption, study.space().factors())
         .text("factor", |factor| factor.name.replace('_', " "))
-        .text("range", range)
+        .text("range", |factor| {
+            let (low, high) = factor.distribution().support();
+            format!("{low} to {high} {}", factor.unit())
+        })
         .text("group", |factor| factor.group.as_deref().unwrap_or_default());
-    let ranges = Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![ranges.into()] };
-    let parts = vec![constants.into(), ranges];
+    let parts = vec![constants.into(), details("The ranges of the factors", ranges.into())];
     Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

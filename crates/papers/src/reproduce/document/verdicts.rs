@@ -15,14 +15,6 @@ fn part(claims: &[Claim], claim: &Claim) -> String {
 
 /// Builds the table of verdicts, a line or two each; the CSV file has all of every claim.
 pub(super) fn table(claims: &[Claim]) -> Part {
-    let verdict = |claim: &Claim| {
-        let (mark, note) = match &claim.verdict {
-            Verdict::Reproduced => (Mark::Good, String::new()),
-            Verdict::NotReproduced => (Mark::Mixed, String::new()),
-            Verdict::Contradicted { own } => (Mark::Bad, format!("by the paper's own {own}")),
-        };
-        Cell { note, ..Cell::marked(claim.verdict.word(), mark) }
-    };
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
     let rows = Table::from_rows(caption, claims)
@@ -31,9 +23,9 @@ pub(super) fn table(claims: &[Claim]) -> Part {
         .file("source", |claim| claim.source)
         .text("claim", |claim| format!("{} ({})", claim.statement, claim.source))
         .value("statement", |claim| claim.statement)
-        .text("as the paper shows it", verdict)
+        .text("as the paper shows it", |claim| verdict_cell(&claim.verdict))
         .named("verdict")
-        .file("own", |claim| if let Verdict::Contradicted { own } = &claim.verdict { own } else { "" })
+        .file("own", |claim| if let Verdict::Contradicted { by } = &claim.verdict { by } else { "" })
         .text("over the whole ranges", |claim| &claim.range)
         .named("range")
         .file("finding", |claim| &claim.finding)
@@ -42,14 +34,23 @@ pub(super) fn table(claims: &[Claim]) -> Part {
     Table { on_phone: OnPhone::Stack, file: "claims.csv".to_owned(), ..rows.into() }.into()
 }
 
+fn verdict_cell(verdict: &Verdict) -> Cell {
+    let (mark, note) = match verdict {
+        Verdict::Reproduced => (Mark::Good, String::new()),
+        Verdict::NotReproduced => (Mark::Mixed, String::new()),
+        Verdict::Contradicted { by } => (Mark::Bad, format!("by the paper's own {by}")),
+    };
+    Cell { note, ..Cell::marked(verdict.word(), mark) }
+}
+
 /// Lists our results for every claim, their setting, and their figures on the page.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
-    let links = |claim: &Claim| {
-        let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
-        shown.map(|figure| Link::new(&figure.label, format!("#{}", anchor(figure.stem)))).collect()
-    };
     let rows = Table::from_rows("Basis of the verdicts.", claims)
-        .text("claim", |claim| Cell { links: links(claim), ..Cell::from(part(claims, claim)) })
+        .text("claim", |claim| {
+            let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
+            let links = shown.map(|figure| Link::new(&figure.label, format!("#{}", anchor(figure.stem)))).collect();
+            Cell { links, ..Cell::from(part(claims, claim)) }
+        })
         .text("our values, and their setting", |claim| Cell {
             note: claim.setting.clone(),
             ..Cell::from(&claim.finding)
@@ -62,14 +63,12 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
 /// Counts the verdicts:
 /// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
 pub(super) fn sentence(claims: &[Claim]) -> Option<String> {
-    let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();
+    let [reproduced, not_reproduced, contradicted] = ["reproduced", "not reproduced", "contradicted"]
+        .map(|word| claims.iter().filter(|claim| claim.verdict.word() == word).count());
     Some(format!(
-        "Of {} answers to the papers' {} claims, {} are reproduced, {} are not reproduced, and {} are contradicted by the \
-         same paper.",
+        "Of {} answers to the papers' {} claims, {reproduced} are reproduced, {not_reproduced} are not reproduced, and \
+         {contradicted} are contradicted by the same paper.",
         claims.len(),
-        claims.last()?.number,
-        count("reproduced"),
-        count("not reproduced"),
-        count("contradicted")
+        claims.last()?.number
     ))
 }

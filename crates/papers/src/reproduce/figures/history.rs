@@ -6,7 +6,6 @@ use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion_report::document::{Rows, Table};
 use apportion_report::format::{force, length, time};
 
-use super::Drawn;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{NANO, SceneSample, SceneStory, scene_number};
@@ -44,21 +43,21 @@ const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"
 /// The column of the relative position.
 const RELATIVE: &str = "relative_position_nm";
 
-/// Draws tS04 figure 8.
-pub(super) fn forces_in_time() -> Result<Drawn, Failure> {
+/// Draws TS04 figure 8.
+pub(super) fn forces_in_time() -> Result<(Chart, String), Failure> {
     let story = coulomb()?;
     Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
-/// Draws tS04 figure 9.
-pub(super) fn tip_force() -> Result<Drawn, Failure> {
+/// Draws TS04 figure 9.
+pub(super) fn tip_force() -> Result<(Chart, String), Failure> {
     let story = coulomb()?;
     let critical = NANO * story.critical.critical_force;
     Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
-/// Draws tS04 figure 13.
-pub(super) fn contact_areas() -> Result<Drawn, Failure> {
+/// Draws TS04 figure 13.
+pub(super) fn contact_areas() -> Result<(Chart, String), Failure> {
     let story = coulomb()?;
     let columns =
         ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
@@ -88,30 +87,27 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// Draws CHK figure 5.
-pub(super) fn two_laws() -> Result<Drawn, Failure> {
+pub(super) fn two_laws() -> Result<(Chart, String), Failure> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
-    let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
-    let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
-        line(format!("{name}, tip force"), (story.colour, stroke), curve(story, FORCES[0]))
-    };
-    let level = |&(story, name, _): &(&SceneStory, &str, Stroke)| {
+    let (mut tip_forces, mut levels, mut rules) = (Vec::new(), Vec::new(), Vec::new());
+    for (story, name, stroke) in [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)] {
+        tip_forces.push(line(format!("{name}, tip force"), (story.colour, stroke), curve(story, FORCES[0])));
         let critical = NANO * story.critical.critical_force;
         let level = story.samples.iter().map(|sample| (sample.time, critical)).collect();
-        line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), level)
-    };
-    let lines = laws.iter().map(tip_force).chain(laws.iter().map(level));
-    let rules = laws.iter().map(|(story, name, _)| Mark::rule(story.critical_time, format!("slip, {name}")));
-    let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Tip force F_T", "nN")).with(lines).with(rules);
-    let reached = |story: &SceneStory, law: &str| {
-        format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
-    };
+        levels.push(line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), level));
+        rules.push(Mark::rule(story.critical_time, format!("slip, {name}")));
+    }
+    let marks = tip_forces.into_iter().chain(levels).chain(rules);
+    let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Tip force F_T", "nN")).with(marks);
     let caption = format!(
-        "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
-         the papers print it slips {} and {}.",
+        "The tip force rises from {} until the particle slips, at {} {} under Hurtado-Kim friction and at {} {} under \
+         Coulomb friction; with the shear modulus of {} GPa that the papers print it slips {} and {}.",
         force(coulomb.start().tip_force),
-        reached(&hk, "Hurtado-Kim"),
-        reached(&coulomb, "Coulomb"),
+        force(hk.critical.critical_force),
+        slip(&hk),
+        force(coulomb.critical.critical_force),
+        slip(&coulomb),
         PRINTED_SHEAR_MODULUS / 1e9,
         slip(&printed[0]),
         slip(&printed[1]),
@@ -122,7 +118,7 @@ pub(super) fn two_laws() -> Result<Drawn, Failure> {
 }
 
 /// Draws TS04 figure 10, with the relative position at the printed shear modulus in addition to ours.
-pub(super) fn displacement() -> Result<Drawn, Failure> {
+pub(super) fn displacement() -> Result<(Chart, String), Failure> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
@@ -146,35 +142,33 @@ pub(super) fn displacement() -> Result<Drawn, Failure> {
     Ok((Chart::new(ours.title, caption).panels(panels), rows.csv()))
 }
 
-/// Draws tS04 figure 11.
-pub(super) fn coefficients() -> Result<Drawn, Failure> {
+/// Draws TS04 figure 11.
+pub(super) fn coefficients() -> Result<(Chart, String), Failure> {
     // All follow one line until they slip: in this order each is visible.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let nominal = Scene::default().static_friction;
     let others = [1, 4, 5, 6].map(Colour::Series);
-    let panel = |label: &str, unit: &str, column: &str| {
-        let each = runs.iter().zip(COEFFICIENTS).zip(others);
-        let lines = each.map(|((story, coefficient), other)| {
+    let axes = [("Tip force F_T", "nN", FORCES[0]), ("Position on the substrate", "nm", RELATIVE)];
+    let panels = axes.map(|(label, unit, column)| {
+        let lines = runs.iter().zip(COEFFICIENTS).zip(others).map(|((story, coefficient), other)| {
             let colour = if coefficient == nominal { story.colour } else { other };
             line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, column))
         });
         Panel::new(Axis::new("Time", "s"), Axis::new(label, unit)).with(lines)
-    };
-    let panels = [panel("Tip force F_T", "nN", FORCES[0]), panel("Position on the substrate", "nm", RELATIVE)];
-    let mut times: Vec<(f64, f64)> =
-        COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical_time)).collect();
-    times.reverse();
-    let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {mu}", time(*at))).collect();
-    let later = times.windows(2).all(|pair| pair[1].1 > pair[0].1);
-    let seen = if later {
+    });
+    let runs_by_coefficient = COEFFICIENTS.into_iter().zip(&runs).rev();
+    let slips: Vec<String> =
+        runs_by_coefficient.map(|(mu, story)| format!("{} at {mu}", time(story.critical_time))).collect();
+    let is_later = runs.windows(2).all(|pair| pair[0].critical_time > pair[1].critical_time);
+    let statement = if is_later {
         "The larger the coefficient of static friction, the later the particle slips"
     } else {
         "The particle slips"
     };
     let names = COEFFICIENTS.map(|coefficient| coefficient.to_string());
     let stories: Vec<(&str, &SceneStory)> = names.iter().map(String::as_str).zip(&runs).collect();
-    let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
+    let chart = Chart::new("Effect of the coefficient of friction", format!("{statement}: after {}.", listed(&slips)));
     Ok((chart.panels(panels), table("static_friction", &stories, &[FORCES[0], RELATIVE]).csv()))
 }
 

@@ -13,8 +13,9 @@ use apportion_report::chart::Chart;
 pub use history::{ANIMATION_STEM, DURATION, PRINTED_SHEAR_MODULUS, coulomb};
 use rayon::prelude::*;
 
-use super::papers::{PrintedFigure, papers};
-use super::{Effort, Reproduced, general_study, shares};
+use super::papers::papers;
+use super::shares;
+use super::studies::{Effort, Reproduced, general_study};
 
 /// One figure of the papers, from our results.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,23 +40,25 @@ pub struct PaperFigure {
 /// [`Failure`] if a scene has no solution.
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, Failure> {
     let general = general_study();
-    let draw = |figure: &'static PrintedFigure| {
+    let figures = papers().figures.par_iter().filter_map(|figure| {
         let stem = figure.stem;
-        let drawn = match (figure.factor, figure.shares) {
-            (Some(factor), _) => Ok(Some(sweep::drawn(figure, factor, general.space(), effort))),
-            (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
-            (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
-        };
-        let ours = |(chart, csv)| PaperFigure { stem, label: label(stem), theirs: figure.shows, chart, csv };
-        drawn.map(|drawn| drawn.map(ours))
-    };
-    papers().figures.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
+        let chart = match (figure.factor, figure.shares) {
+            (Some(factor), _) => Some(Ok(sweep::chart(figure, factor, general.space(), effort))),
+            (None, Some(group)) => shares::chart(group, stem, studies).map(Ok),
+            (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, draw)| draw()),
+        }?;
+        Some(chart.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs: figure.shows, chart, csv }))
+    });
+    figures.collect()
 }
 
-/// A chart with its data as CSV.
-type Drawn = (Chart, String);
-/// A function that draws a figure of the nominal scene.
-type Draw = fn() -> Result<Drawn, Failure>;
+/// Returns the path of a file next to those of the chart `stem`.
+pub(super) fn chart_file(stem: &str, ending: &str) -> String {
+    format!("charts/{stem}.{ending}")
+}
+
+/// A function that draws a figure of the nominal scene, with its data as CSV.
+type Draw = fn() -> Result<(Chart, String), Failure>;
 
 /// The figures of the nominal scene by their stems.
 const SCENES: [(&str, Draw); 8] = [

@@ -6,7 +6,6 @@ use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Stroke};
 use apportion_report::document::Table;
 use apportion_report::format::{force, three_digits as short};
 
-use super::Drawn;
 use crate::scene::simulation::{pushing, scene_modes};
 use crate::scene::{ModeDiagram, ModeLine, NANO, law_colour, mode_axis, mode_diagram_chart};
 
@@ -15,15 +14,15 @@ const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 /// Steps between them.
 const STEPS: u32 = 120;
 
-/// Draws tS04 figure 12.
-pub(super) fn against_force_angle() -> Result<Drawn, Failure> {
+/// Draws TS04 figure 12.
+pub(super) fn against_force_angle() -> Result<(Chart, String), Failure> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
-    if let Some(said) = sliding(&diagram) {
-        chart.caption = format!("{}; {said}.", chart.caption.trim_end_matches('.'));
+    if let Some(statement) = sliding(&diagram) {
+        chart.caption = format!("{}; {statement}.", chart.caption.trim_end_matches('.'));
     }
-    let angle = |row: usize| diagram.angle[row].to_degrees();
-    let mut rows = Table::from_rows("", 0..diagram.angle.len()).file("force_angle_deg", angle);
+    let rows = Table::from_rows("", 0..diagram.angle.len());
+    let mut rows = rows.file("force_angle_deg", |row| diagram.angle[row].to_degrees());
     for line in &diagram.forces {
         let name = format!("{}_nN", line.name.replace('-', "_"));
         rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
@@ -53,35 +52,43 @@ fn sliding(diagram: &ModeDiagram) -> Option<String> {
 }
 
 /// Draws the same against the angle of the contact.
-pub(super) fn against_contact_angle() -> Result<Drawn, Failure> {
+pub(super) fn against_contact_angle() -> Result<(Chart, String), Failure> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
-    let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
-        let scene = |angle: &f64| Scene { contact_angle: angle.to_radians(), ..Scene::default() };
-        degrees.iter().map(|angle| read(scene(angle))).collect::<Result<Vec<_>, Failure>>()
-    };
     let options = Options::default();
     let psi = critical_force(&Scene::default(), &options)?.force_angle();
-    let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
-    let line = |name: &str, look, force| ModeLine { name: name.to_owned(), look, force };
-    let (colour, degrees_of_psi) = (law_colour(FrictionLaw::Coulomb), short(psi.to_degrees()));
-    let own = over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?;
-    let along = over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?;
+    let law = law_colour(FrictionLaw::Coulomb);
     let mut lines = vec![
-        line("critical force F_cr of the scene", (colour, Stroke::Solid), own),
-        line("slide, force along the contact (ψ = φ)", (colour, Stroke::Dashed), along),
+        line("critical force F_cr of the scene", (law, Stroke::Solid), &degrees, |scene| {
+            Ok(Some(critical_force(&scene, &options)?.critical_force))
+        })?,
+        line("slide, force along the contact (ψ = φ)", (law, Stroke::Dashed), &degrees, |scene| {
+            pushing(scene, &options).critical_tip_force(Mode::Slide, scene.contact_angle)
+        })?,
     ];
     for (mode, colour) in [(Mode::TipSlip, 1), (Mode::Roll, 4), (Mode::Spin, 5)] {
-        let name = format!("{}, force at ψ = {degrees_of_psi}°", mode.name());
-        lines.push(line(&name, (Colour::Series(colour), Stroke::Solid), over(&|scene| at(scene, mode, psi))?));
+        let name = format!("{}, force at ψ = {}°", mode.name(), short(psi.to_degrees()));
+        lines.push(line(&name, (Colour::Series(colour), Stroke::Solid), &degrees, |scene| {
+            pushing(scene, &options).critical_tip_force(mode, psi)
+        })?);
     }
-    let rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
+    let mut rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
     let names = ["critical_force_nN", "slide_along_contact_nN", "tip_slip_nN", "roll_nN", "spin_nN"];
-    let rows = names
-        .iter()
-        .zip(&lines)
-        .fold(rows, |rows, (name, line)| rows.file(*name, |row| line.force[row].map(|force| NANO * force)));
+    for (name, line) in names.into_iter().zip(&lines) {
+        rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
+    }
     Ok((chart(&degrees, &lines), rows.csv()))
+}
+
+/// Computes a line of forces over these contact angles.
+fn line(
+    name: &str,
+    look: (Colour, Stroke),
+    degrees: &[f64],
+    force: impl Fn(Scene) -> Result<Option<f64>, Failure>,
+) -> Result<ModeLine, Failure> {
+    let scenes = degrees.iter().map(|angle| Scene { contact_angle: angle.to_radians(), ..Scene::default() });
+    Ok(ModeLine { name: name.to_owned(), look, force: scenes.map(force).collect::<Result<_, _>>()? })
 }
 
 fn chart(degrees: &[f64], lines: &[ModeLine]) -> Chart {
@@ -95,13 +102,16 @@ fn chart(degrees: &[f64], lines: &[ModeLine]) -> Chart {
 
 /// Describes the first two lines, and names the modes that never occur.
 fn caption(lines: &[ModeLine]) -> String {
-    let ends = |line: &ModeLine| Some((line.force.first().copied()??, line.force.last().copied()??));
-    let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
+    let [ends, along_ends] = [0, 1].map(|line| {
+        let forces = &lines[line].force;
+        Some((forces.first().copied()??, forces.last().copied()??))
+    });
+    let (Some((first, last)), Some((along_first, along_last))) = (ends, along_ends) else {
         return "The scene has no critical force.".to_owned();
     };
     let (from, to) = CONTACT_ANGLES;
     // 1e-9: rounding; the critical force does not depend on the contact angle.
-    let own = if (last / first - 1.0).abs() < 1e-9 {
+    let course = if (last / first - 1.0).abs() < 1e-9 {
         format!("stays at {}", force(first))
     } else {
         format!("goes from {} to {}", force(first), force(last))
@@ -113,7 +123,7 @@ fn caption(lines: &[ModeLine]) -> String {
         .collect();
     let never = if never.is_empty() { String::new() } else { format!("; no force sets in: {}", never.join(", ")) };
     format!(
-        "From {from}° to {to}° of contact angle the critical force of the scene {own}, while a force along the contact \
+        "From {from}° to {to}° of contact angle the critical force of the scene {course}, while a force along the contact \
          would have to be {} and {} to let the particle slide{never}.",
         force(along_first),
         force(along_last)

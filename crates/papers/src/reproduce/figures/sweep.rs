@@ -10,7 +10,7 @@ use apportion_report::format::{three_digits as short, unit};
 use rayon::prelude::*;
 
 use crate::reproduce::papers::PrintedFigure;
-use crate::reproduce::{Effort, FRICTIONS, Friction};
+use crate::reproduce::studies::{Effort, FRICTIONS, Friction};
 use crate::scene::NANO;
 
 /// Difference from the closed form, as a part of the force's range, from which the quasi-static rung is drawn too.
@@ -25,7 +25,7 @@ struct Line {
     /// Its name in the legend.
     name: String,
     /// Its name in sentences.
-    said: String,
+    condition: String,
     /// Its style.
     look: (Colour, Stroke),
     scene: Scene,
@@ -33,6 +33,16 @@ struct Line {
 }
 
 impl Line {
+    fn with_adhesion_in_load(self, condition: &str) -> Self {
+        Self {
+            name: format!("{} with the adhesion in the load (q = 1)", self.name),
+            condition: format!("{condition} with the adhesion in the load"),
+            look: (self.look.0, Stroke::Dotted),
+            options: Options { adhesion_in_load: true, ..self.options },
+            ..self
+        }
+    }
+
     /// Returns whether the equations of motion are integrated, and the force is read at the first step past the slip.
     fn is_marched(&self) -> bool {
         self.options.fidelity == Fidelity::FixedStep
@@ -44,35 +54,28 @@ fn line(key: &'static str) -> Line {
     let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, stroke, .. }| Line {
         key,
         name: name.to_owned(),
-        said: format!(" under {name} friction"),
+        condition: format!(" under {name} friction"),
         // LuGre's other lines are dotted.
         look: (colour, if law == FrictionLaw::LuGre { Stroke::Solid } else { stroke }),
         scene: Scene::default(),
         options: Options { friction: law, ..Options::default() },
     });
-    let adhesive = |line: Line, said: &str| Line {
-        name: format!("{} with the adhesion in the load (q = 1)", line.name),
-        said: format!("{said} with the adhesion in the load"),
-        look: (line.look.0, Stroke::Dotted),
-        options: Options { adhesion_in_load: true, ..line.options },
-        ..line
-    };
     match key {
         "coulomb" => coulomb,
         "hk" => hk,
         "lugre" => lugre,
-        "coulomb_adhesion_in_load" => adhesive(coulomb, " under Coulomb friction"),
-        "lugre_adhesion_in_load" => adhesive(lugre, ""),
+        "coulomb_adhesion_in_load" => coulomb.with_adhesion_in_load(" under Coulomb friction"),
+        "lugre_adhesion_in_load" => lugre.with_adhesion_in_load(""),
         "lugre_viscous" => Line {
             name: "LuGre with viscous friction σ₂ = 0.3 N s/m".to_owned(),
-            said: " with viscous friction of 0.3 N s/m".to_owned(),
+            condition: " with viscous friction of 0.3 N s/m".to_owned(),
             look: (lugre.look.0, Stroke::Dotted),
             scene: Scene { viscous_friction: 0.3, ..lugre.scene },
             ..lugre
         },
         "lugre_fixed_step_14ms" => Line {
             name: "LuGre marched in steps of 14 ms, no event location".to_owned(),
-            said: " when marched in steps of 14 ms without event location".to_owned(),
+            condition: " when marched in steps of 14 ms without event location".to_owned(),
             look: (Colour::Series(6), Stroke::Solid),
             options: Options { fidelity: Fidelity::FixedStep, step: 14e-3, ..lugre.options },
             ..lugre
@@ -81,8 +84,8 @@ fn line(key: &'static str) -> Line {
     }
 }
 
-/// Draws the critical force against `factor` over its range in `space`.
-pub(super) fn drawn(figure: &PrintedFigure, factor: &str, space: &Space, effort: Effort) -> super::Drawn {
+/// Draws the critical force against `factor` over its range in `space`, with its data as CSV.
+pub(super) fn chart(figure: &PrintedFigure, factor: &str, space: &Space, effort: Effort) -> (Chart, String) {
     let points = match effort {
         Effort::Full => 201,
         Effort::Quick => 41,
@@ -92,10 +95,10 @@ pub(super) fn drawn(figure: &PrintedFigure, factor: &str, space: &Space, effort:
     let is_marched = lines.iter().any(Line::is_marched);
     let points = if is_marched { 4 * points - 3 } else { points };
     let parameter = Parameter::from_name(factor).expect("a parameter of the model");
-    let factor = space.factors().iter().find(|known| known.name == factor).expect("a factor of the study");
+    let factor = space.factors().iter().find(|other| other.name == factor).expect("a factor of the study");
     let values = values_over_range(factor.distribution(), points).expect("a distribution with bounds");
     let swept = Swept { gap: figure.gap, factor, parameter, values };
-    let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
+    let lines: Vec<ComputedLine> = lines.iter().map(|line| swept.line(line)).collect();
     (swept.chart(&lines), swept.csv(&lines))
 }
 
@@ -110,7 +113,7 @@ struct Swept<'a> {
 }
 
 /// A computed line, forces in nN; NaN for a missing one.
-struct Drawn<'a> {
+struct ComputedLine<'a> {
     line: &'a Line,
     force: Vec<f64>,
     /// The same by the quasi-static rung, unless the line has a rung of its own.
@@ -118,43 +121,49 @@ struct Drawn<'a> {
 }
 
 impl Swept<'_> {
-    fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
-        let force = |options: &Options| -> Vec<f64> {
-            let at = |value: &f64| {
-                let mut scene = line.scene;
-                (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
-                critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
-            };
-            self.values.par_iter().map(at).collect()
-        };
-        let quasi_static = || force(&Options { fidelity: Fidelity::QuasiStatic, ..line.options });
-        Drawn { line, force: force(&line.options), quasi_static: (!line.is_marched()).then(quasi_static) }
+    fn line<'a>(&self, line: &'a Line) -> ComputedLine<'a> {
+        let quasi_static = Options { fidelity: Fidelity::QuasiStatic, ..line.options };
+        let quasi_static = (!line.is_marched()).then(|| self.forces(line.scene, &quasi_static));
+        ComputedLine { line, force: self.forces(line.scene, &line.options), quasi_static }
     }
 
-    fn csv(&self, lines: &[Drawn]) -> String {
+    /// Returns the critical force (nN) at every value; NaN for a missing one.
+    fn forces(&self, scene: Scene, options: &Options) -> Vec<f64> {
+        let forces = self.values.par_iter().map(|value| {
+            let mut scene = scene;
+            (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
+            critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
+        });
+        forces.collect()
+    }
+
+    fn csv(&self, lines: &[ComputedLine]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
         let name = format!("{}_{unit}", self.factor.name);
-        let rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
-        let own = lines.iter().map(|drawn| (format!("{}_nN", drawn.line.key), &drawn.force));
-        let quasi_static = lines
-            .iter()
-            .filter_map(|drawn| Some((format!("{}_quasi_static_nN", drawn.line.key), drawn.quasi_static.as_ref()?)));
-        own.chain(quasi_static).fold(rows, |rows, (name, force)| rows.file(name, |row| force[row])).csv()
+        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
+        for computed in lines {
+            rows = rows.file(format!("{}_nN", computed.line.key), |row| computed.force[row]);
+        }
+        for computed in lines {
+            if let Some(force) = &computed.quasi_static {
+                rows = rows.file(format!("{}_quasi_static_nN", computed.line.key), |row| force[row]);
+            }
+        }
+        rows.csv()
     }
 
-    fn chart(&self, lines: &[Drawn]) -> Chart {
+    fn chart(&self, lines: &[ComputedLine]) -> Chart {
         let unit = unit(self.factor.unit().symbol());
-        let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
         let range = range(lines);
         let mut all = Vec::new();
         // Integrated lines scatter around the others, so they are drawn below them.
-        let (marched, rest): (Vec<_>, Vec<_>) = lines.iter().partition(|drawn| drawn.line.is_marched());
-        for drawn in marched.into_iter().chain(rest) {
-            let (colour, stroke) = drawn.line.look;
-            all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
-            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.differs(range)) {
-                let name = format!("{}, quasi-static", drawn.line.name);
-                all.push(Series::new(name, colour).stroke(Stroke::Dotted).line(points(force)));
+        let (marched, rest): (Vec<_>, Vec<_>) = lines.iter().partition(|computed| computed.line.is_marched());
+        for computed in marched.into_iter().chain(rest) {
+            let (colour, stroke) = computed.line.look;
+            all.push(Series::new(&computed.line.name, colour).stroke(stroke).line(self.points(&computed.force)));
+            if let Some(force) = computed.quasi_static.as_ref().filter(|_| computed.differs(range)) {
+                let name = format!("{}, quasi-static", computed.line.name);
+                all.push(Series::new(name, colour).stroke(Stroke::Dotted).line(self.points(force)));
             }
         }
         let symbol = self.parameter.symbol.replace("omega", "ω");
@@ -166,14 +175,18 @@ impl Swept<'_> {
         Chart::new(title, self.caption(lines, range)).panels([panel])
     }
 
-    fn caption(&self, lines: &[Drawn], range: f64) -> String {
+    fn points(&self, force: &[f64]) -> Vec<(f64, f64)> {
+        self.values.iter().copied().zip(force.iter().copied()).collect()
+    }
+
+    fn caption(&self, lines: &[ComputedLine], range: f64) -> String {
         let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
-        let said = |drawn: &Drawn| match drawn.line.is_marched() {
-            true => overshoot(drawn, &lines[0]),
-            false => course(&self.values, &drawn.force, &unit, &drawn.line.said),
-        };
-        let courses: Vec<String> = lines.iter().map(said).collect();
+        let courses = lines.iter().map(|computed| match computed.line.is_marched() {
+            true => overshoot(computed, &lines[0]),
+            false => course(&self.values, &computed.force, &unit, &computed.line.condition),
+        });
+        let courses: Vec<String> = courses.collect();
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
@@ -190,7 +203,7 @@ impl Swept<'_> {
     }
 
     /// Says where two lines meet, and their distance at the ends.
-    fn between(&self, one: &Drawn, other: &Drawn, unit: &str) -> String {
+    fn between(&self, one: &ComputedLine, other: &ComputedLine, unit: &str) -> String {
         let gap: Vec<(f64, f64)> =
             self.values.iter().zip(one.force.iter().zip(&other.force)).map(|(x, (a, b))| (*x, a - b)).collect();
         let mut text = String::new();
@@ -206,7 +219,7 @@ impl Swept<'_> {
     }
 }
 
-impl Drawn<'_> {
+impl ComputedLine<'_> {
     /// Returns the forces of the line with those by the quasi-static rung, if it has them.
     fn both(&self) -> impl Iterator<Item = (&f64, &f64)> {
         self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other))
@@ -224,28 +237,30 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Returns the range of force of the lines (nN); their size if they are level.
-fn range(lines: &[Drawn]) -> f64 {
-    let values = || lines.iter().flat_map(|drawn| &drawn.force).copied().filter(|force| force.is_finite());
-    let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+fn range(lines: &[ComputedLine]) -> f64 {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for force in lines.iter().flat_map(|computed| &computed.force).filter(|force| force.is_finite()) {
+        (low, high) = (low.min(*force), high.max(*force));
+    }
     if high - low > FLAT * high.abs() { high - low } else { high.abs() }
 }
 
 /// Says by how much the fixed-step integration is too high.
-fn overshoot(naive: &Drawn, right: &Drawn) -> String {
+fn overshoot(naive: &ComputedLine, right: &ComputedLine) -> String {
     let most = largest(naive.force.iter().zip(&right.force).map(|(a, b)| a - b));
-    format!("is read up to {} nN too high{}", short(most), naive.line.said)
+    format!("is read up to {} nN too high{}", short(most), naive.line.condition)
 }
 
 /// Compares the quasi-static rung with the closed form if they differ by 0.01 % or more: the page says once that all
 /// others agree.
-fn agreement(lines: &[Drawn], range: f64) -> String {
-    let both = lines.iter().flat_map(Drawn::both);
+fn agreement(lines: &[ComputedLine], range: f64) -> String {
+    let both = lines.iter().flat_map(ComputedLine::both);
     let most = largest(both.map(|(formula, geometry)| (geometry / formula - 1.0).abs()));
     if most < 1e-4 {
         return String::new();
     }
-    let drawn = if lines.iter().any(|line| line.differs(range)) { " (dotted)" } else { "" };
-    format!("; the quasi-static rung{drawn} differs from the closed forms by at most {} %", short(100.0 * most))
+    let dotted = if lines.iter().any(|line| line.differs(range)) { " (dotted)" } else { "" };
+    format!("; the quasi-static rung{dotted} differs from the closed forms by at most {} %", short(100.0 * most))
 }
 
 /// Relative change below which it is rounding.
@@ -256,37 +271,40 @@ const SMALL: f64 = 1e-2;
 const STRAIGHT: f64 = 0.02;
 
 /// Describes a force (nN) over rising `x` (in `x_unit`, with a leading space), such as "falls from 9 to 1 nN (half of the
-/// way by 3 um)", for use after the name of the force. A missing force is not finite. `whom`, such as " under Coulomb
+/// way by 3 um)", for use after the name of the force. A missing force is not finite. `condition`, such as " under Coulomb
 /// friction", follows the values.
-fn course(x: &[f64], force: &[f64], x_unit: &str, whom: &str) -> String {
+fn course(x: &[f64], force: &[f64], x_unit: &str, condition: &str) -> String {
     let points = x.iter().copied().zip(force.iter().copied());
     let points: Vec<(f64, f64)> = points.filter(|(_, force)| force.is_finite()).collect();
     let (Some(&(_, first)), Some(&(_, last))) = (points.first(), points.last()) else {
-        return format!("does not exist{whom}");
+        return format!("does not exist{condition}");
     };
     let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
     let size = low.abs().max(high.abs());
     if high - low <= ROUNDING * size {
-        return format!("stays at {} nN{whom}", short(first));
+        return format!("stays at {} nN{condition}", short(first));
     }
     let slack = ROUNDING * (high - low);
     let rises = points.windows(2).all(|p| p[1].1 >= p[0].1 - slack);
     let falls = points.windows(2).all(|p| p[1].1 <= p[0].1 + slack);
     let verb = if rises { "rises" } else { "falls" };
     if !rises && !falls {
-        return format!("lies between {} and {} nN{whom}", short(low), short(high));
+        return format!("lies between {} and {} nN{condition}", short(low), short(high));
     }
     if high - low <= SMALL * size {
-        return format!("{verb} by {} % from {} nN{whom}", short(100.0 * (high - low) / size), short(first));
+        return format!("{verb} by {} % from {} nN{condition}", short(100.0 * (high - low) / size), short(first));
     }
-    format!("{verb} from {} to {} nN{whom}{}", short(first), short(last), shape(&points, x_unit))
+    format!("{verb} from {} to {} nN{condition}{}", short(first), short(last), shape(&points, x_unit))
 }
 
 /// Describes how the change of a monotonic curve is distributed over the points.
 fn shape(points: &[(f64, f64)], x_unit: &str) -> String {
     let ((x0, y0), (x1, y1)) = (points[0], points[points.len() - 1]);
-    let chord = |x: f64| y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-    let bend = points.iter().map(|(x, y)| ((y - chord(*x)) / (y1 - y0)).abs()).fold(0.0, f64::max);
+    let mut bend = 0.0_f64;
+    for (x, y) in points {
+        let chord = y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+        bend = bend.max(((y - chord) / (y1 - y0)).abs());
+    }
     if bend <= ROUNDING {
         return " (in a straight line)".to_owned();
     }

@@ -1,17 +1,17 @@
 use super::*;
 
-fn holding(what: &str, nominal: bool, value: f64) -> Holding {
+fn part(what: &str, nominal: bool, value: f64) -> ClaimPart {
     let interval = Some(Interval { low: value - 0.001, high: value + 0.001 });
-    Holding { what: what.into(), nominal, share: Share { value, interval } }
+    ClaimPart { what: what.into(), nominal, share: Share { value, interval } }
 }
 
 #[test]
 fn verdicts_use_the_scene_of_the_paper_and_ranges_the_box() {
-    let holdings = [holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5)];
-    assert_eq!(Answer::judged(&holdings, []).verdict, Verdict::Reproduced);
-    assert_eq!(over_ranges(&holdings), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
+    let parts = [part("Coulomb", true, 1.0), part("LuGre", true, 0.5)];
+    assert_eq!(Answer::judged(&parts, []).verdict, Verdict::Reproduced);
+    assert_eq!(over_ranges(&parts), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
     // Everywhere in the box but not at the nominal scene does not reproduce a chart drawn there.
-    let elsewhere = Answer::judged(&[holding("Coulomb", false, 1.0)], []);
+    let elsewhere = Answer::judged(&[part("Coulomb", false, 1.0)], []);
     assert_eq!(elsewhere.verdict, Verdict::NotReproduced);
 }
 

@@ -1,4 +1,4 @@
-//! The basis of the checks: the physics, the nominal scene, the box of the papers' general study, and the shape of curves.
+//! What the checks are computed with: the physics, the box of the papers' general study, and the nine studies.
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
@@ -8,9 +8,10 @@ use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
 use apportion_base::sum;
 
-use super::judge::{Holding, Share, number};
-use crate::reproduce::papers::Words;
-use crate::reproduce::{Effort, Friction, Reproduced, general_study};
+use super::curve::{Curve, grid};
+use super::judge::{ClaimPart, Share, number};
+use crate::reproduce::studies::{Effort, Friction, Reproduced, general_study};
+use crate::reproduce::words::Words;
 
 /// Seed of every sample of the box.
 const SEED: u64 = 5;
@@ -22,9 +23,6 @@ const REPLICATES: u64 = 8;
 pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, Failure>;
 /// A function for a scene in time, such as [`history`].
 pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
-
-/// A function for a number of a scene, or for whether a rule holds there.
-pub(super) type OfScene<'a, T> = &'a dyn Fn(&Scene) -> Result<T, Failure>;
 
 /// The physics of the checks: ours, or a modified one in a test.
 #[derive(Clone, Copy)]
@@ -88,7 +86,7 @@ impl Sweep {
 }
 
 /// The data for the checks of all claims.
-pub(super) struct Bench<'a> {
+pub(super) struct ClaimContext<'a> {
     pub physics: Physics<'a>,
     pub sizes: Sizes,
     /// The studies with their results.
@@ -96,8 +94,8 @@ pub(super) struct Bench<'a> {
     space: Space,
 }
 
-impl<'a> Bench<'a> {
-    /// Creates a bench with the ranges of the general study.
+impl<'a> ClaimContext<'a> {
+    /// Creates the context with the ranges of the general study.
     pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Self {
         Self { physics, sizes: Sizes::new(effort), studies, space: general_study().space().clone() }
     }
@@ -117,11 +115,16 @@ impl<'a> Bench<'a> {
 
     /// Returns F_cr along a sweep of one constant of `scene`.
     pub fn curve(&self, sweep: &Sweep, scene: &Scene, options: &Options) -> Result<Curve, Failure> {
-        self.curve_of(sweep, scene, &|scene| self.force(scene, options))
+        self.curve_of(sweep, scene, |scene| self.force(scene, options))
     }
 
     /// Returns any quantity along a sweep of one constant of `scene`.
-    pub fn curve_of(&self, sweep: &Sweep, scene: &Scene, quantity: OfScene<'_, f64>) -> Result<Curve, Failure> {
+    pub fn curve_of(
+        &self,
+        sweep: &Sweep,
+        scene: &Scene,
+        quantity: impl Fn(&Scene) -> Result<f64, Failure>,
+    ) -> Result<Curve, Failure> {
         let (x, mut scene) = (grid(sweep.range, sweep.count), *scene);
         let y = x.iter().map(|&value| {
             (sweep.parameter.set)(&mut scene, value);
@@ -132,7 +135,12 @@ impl<'a> Bench<'a> {
 
     /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the
     /// interval. The factors of `group` vary, or all; the others are at their nominal values.
-    pub fn share(&self, group: Option<&str>, count: u64, rule: OfScene<'_, bool>) -> Result<Share, Failure> {
+    pub fn share(
+        &self,
+        group: Option<&str>,
+        count: u64,
+        rule: impl Fn(&Scene) -> Result<bool, Failure>,
+    ) -> Result<Share, Failure> {
         let each = (count / REPLICATES).max(1);
         let mut shares = Vec::new();
         for replicate in 0..REPLICATES {
@@ -152,23 +160,28 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns whether `rule` holds at the nominal scene, and on what share of the general box.
-    pub fn holding(&self, what: &str, count: u64, rule: OfScene<'_, bool>) -> Result<Holding, Failure> {
+    pub fn part(
+        &self,
+        what: &str,
+        count: u64,
+        rule: impl Fn(&Scene) -> Result<bool, Failure>,
+    ) -> Result<ClaimPart, Failure> {
         let nominal = rule(&Scene::default())?;
-        Ok(Holding { what: what.to_owned(), nominal, share: self.share(None, count, rule)? })
+        Ok(ClaimPart { what: what.to_owned(), nominal, share: self.share(None, count, rule)? })
     }
 
     /// Returns the same under each of these friction laws, with its name after `label`.
-    pub fn holding_under(
+    pub fn parts_under(
         &self,
         frictions: &[Friction],
         label: &str,
         count: impl Fn(FrictionLaw) -> u64,
         rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
-    ) -> Result<Vec<Holding>, Failure> {
-        let under = |&Friction { law, name, .. }: &Friction| {
-            self.holding(&format!("{label}{name}"), count(law), &|scene| rule(law, scene))
-        };
-        frictions.iter().map(under).collect()
+    ) -> Result<Vec<ClaimPart>, Failure> {
+        let parts = frictions.iter().map(|&Friction { law, name, .. }| {
+            self.part(&format!("{label}{name}"), count(law), |scene| rule(law, scene))
+        });
+        parts.collect()
     }
 
     fn scenes(&self, group: Option<&str>, replicate: u64, count: u64) -> Vec<Scene> {
@@ -182,7 +195,9 @@ impl<'a> Bench<'a> {
             sequence.fill(place, 0, &mut u);
             factor.fill_si(&u, &mut si);
             let set = parameter(&factor.name).set;
-            scenes.iter_mut().zip(&si).for_each(|(scene, &value)| set(scene, value));
+            for (scene, &value) in scenes.iter_mut().zip(&si) {
+                set(scene, value);
+            }
         }
         scenes
     }
@@ -207,75 +222,3 @@ pub(super) fn exact(friction: FrictionLaw) -> Options {
 pub(super) fn in_motion(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
 }
-
-/// A quantity over a rising grid.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Curve {
-    pub x: Vec<f64>,
-    pub y: Vec<f64>,
-}
-
-/// Returns `count` evenly spaced values from `low` to `high`, both included.
-pub(super) fn grid((low, high): (f64, f64), count: usize) -> Vec<f64> {
-    let last = (count - 1) as f64;
-    (0..count).map(|i| low + (high - low) * (i as f64 / last)).collect()
-}
-
-impl Curve {
-    pub fn first(&self) -> f64 {
-        self.y[0]
-    }
-
-    pub fn last(&self) -> f64 {
-        self.y[self.y.len() - 1]
-    }
-
-    /// Returns whether every value is higher than the one before.
-    pub fn rises(&self) -> bool {
-        self.y.windows(2).all(|pair| pair[1] > pair[0])
-    }
-
-    /// Returns whether every value is lower than the one before.
-    pub fn falls(&self) -> bool {
-        self.y.windows(2).all(|pair| pair[1] < pair[0])
-    }
-
-    /// Returns the largest value minus the smallest, in units of the mean.
-    pub fn spread(&self) -> f64 {
-        let mean = sum::mean(&self.y);
-        self.extent() / mean.abs()
-    }
-
-    fn extent(&self) -> f64 {
-        let (low, high) = self.y.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
-        high - low
-    }
-
-    /// Returns the largest increase of steepness from one step to the next, in units of the mean steepness; 0 if the
-    /// curve flattens everywhere.
-    pub fn steepens(&self) -> f64 {
-        let steps: Vec<f64> =
-            self.x.windows(2).zip(self.y.windows(2)).map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).collect();
-        let mean = ((self.last() - self.first()) / (self.x[self.x.len() - 1] - self.x[0])).abs();
-        steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
-    }
-
-    /// Returns the largest distance from the least-squares line, in units of the whole change, and R^2 of that line.
-    pub fn bend(&self) -> (f64, f64) {
-        let x = (&self.x[..], sum::mean(&self.x));
-        let y = (&self.y[..], sum::mean(&self.y));
-        let slope = sum::centred_product(x, y) / sum::centred_product(x, x);
-        let off: Vec<f64> = self.x.iter().zip(&self.y).map(|(x_i, y_i)| y_i - y.1 - slope * (x_i - x.1)).collect();
-        let rest = sum::centred_product((&off, 0.0), (&off, 0.0));
-        let farthest = off.iter().fold(0.0, |far: f64, off| far.max(off.abs()));
-        (farthest / self.extent(), 1.0 - rest / sum::centred_product(y, y))
-    }
-
-    /// Returns the mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
-    pub fn elasticity(&self) -> f64 {
-        libm::log(self.last() / self.first()) / libm::log(self.x[self.x.len() - 1] / self.x[0])
-    }
-}
-
-#[cfg(test)]
-mod tests;
