@@ -12,8 +12,9 @@ use std::f64::consts::TAU;
 
 use super::bristles::Bristles;
 use super::motion::{FINEST, Motion, Tip, local_tolerance};
-use super::quasi_static::{self, Statics};
+use super::quasi_static;
 use super::slip::{Error, Slip};
+use super::statics::Statics;
 use super::substrate::Substrate;
 use super::swing::Swing;
 use super::{Critical, Options};

@@ -2,8 +2,8 @@
 
 use super::dynamic::surely_holds;
 use super::motion::Motion;
-use super::quasi_static::Statics;
 use super::slip::{Error, Slip};
+use super::statics::Statics;
 use super::substrate::Substrate;
 use super::{Critical, Options};
 use crate::friction::LuGreForm;

@@ -44,8 +44,9 @@ impl<'a> LemaitreCarlson<'a> {
             return Ok(Held { force: 0.0, evaluations: 0 });
         }
         // So close to gam' = V/(2h) that the remaining rise is below the tolerance, reached or only approached.
-        let near = |layer: &Sheared<'_>| drive.tolerance * (1.0 / layer.modulus).min(1.0);
-        let (end, evaluations) = self.pull(area, drive, |layer, y| layer.plastic_rate(y) - 1.0 + near(layer))?;
+        let (end, evaluations) = self.pull(area, drive, |layer, y| {
+            layer.plastic_rate(y) - 1.0 + drive.tolerance * (1.0 / layer.modulus).min(1.0)
+        })?;
         Ok(Held { force: area * self.0.layer_stress * end.y[0], evaluations })
     }
 
