@@ -48,10 +48,15 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
     if is_bad_input(error) { 2 } else { 1 }
 }
 
+fn is_bad_path(error: &WriteError) -> bool {
+    error.source.kind() == ErrorKind::NotADirectory
+}
+
+fn is_bad_model(halt: &Halt) -> bool {
+    matches!(halt, Halt::GaveUp(give_up) if give_up.is_bad_input)
+}
+
 fn is_bad_input(error: &anyhow::Error) -> bool {
-    // The path as given, not as resolved.
-    let is_bad_path = |error: &WriteError| error.source.kind() == ErrorKind::NotADirectory;
-    let is_bad_model = |halt: &Halt| matches!(halt, Halt::GaveUp(give_up) if give_up.is_bad_input);
     if let Some(error) = error.downcast_ref::<RunError>() {
         match error {
             RunError::GaveUp(give_up) => give_up.is_bad_input,

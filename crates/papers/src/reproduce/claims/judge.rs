@@ -1,8 +1,8 @@
 //! Verdicts from where the parts of a claim hold, and the numbers in them.
 
 use apportion::uncertainty::Interval;
-use apportion_report::format::minus;
-use apportion_report::{fixed, with_unit};
+use apportion_report::fixed;
+use apportion_report::format::{self, minus, printed};
 
 use super::verdict::Verdict;
 use crate::reproduce::words::{Words, named_together};
@@ -67,27 +67,17 @@ pub(super) fn over_ranges(parts: &[ClaimPart]) -> String {
     }
 }
 
-/// Rounds to three significant digits: the scene's constants justify no more.
-fn rounded(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let unit = libm::pow(10.0, libm::log10(value.abs()).floor() - 2.0);
-    (value / unit).round_ties_even() * unit
-}
-
 /// Formats an SI value in nano-units, with the unit: `631 nN`.
 pub(super) fn nano(value: f64, unit: &str) -> String {
     number(value * 1e9, &format!("n{unit}"))
 }
 
-/// Formats a plain number to three significant digits, with its unit if any; a tiny one to two as a power of ten.
+/// Formats a plain number to three significant digits (the scene's constants justify no more), with its unit if any; a tiny one to two as a power of ten.
 pub(super) fn number(value: f64, unit: &str) -> String {
     const TINY: f64 = 1e-4;
-    if value != 0.0 && value.abs() < TINY {
-        return minus(format!("{value:.1e} {unit}").trim_end());
-    }
-    minus(&with_unit(rounded(value), unit))
+    let is_tiny = value != 0.0 && value.abs() < TINY;
+    let text = if is_tiny { minus(&format!("{value:.1e}")) } else { printed(value) };
+    format!("{text} {}", format::unit(unit)).trim_end().to_owned()
 }
 
 /// Formats a share in percent without the sign, to one decimal; two if it is close to 0 or 100 but neither.
@@ -103,7 +93,7 @@ pub(super) fn change(relative: f64) -> String {
     if percent != 0.0 && percent.abs() < 1e-3 {
         minus(&format!("{percent:.0e} %"))
     } else {
-        minus(&with_unit(rounded(percent), "%"))
+        format!("{} %", printed(percent))
     }
 }
 
