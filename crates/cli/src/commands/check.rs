@@ -176,7 +176,7 @@ fn past_runs(study: &Study, folder: &Path) -> String {
     text
 }
 
-/// The rows of the design, what is asked of them, and what they cost by the first runs.
+/// The rows of the design, what is estimated from them, and what they cost by the first runs.
 fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     let design = study.design();
     let settings = design.settings();

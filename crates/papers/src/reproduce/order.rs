@@ -14,7 +14,7 @@ pub(super) const VISIBLE: f64 = 0.5;
 /// A factor with its share in percent.
 type FactorShare<'a> = (&'a str, Estimate);
 
-/// Returns the interval of a share; the whole range if its error is unknown.
+/// Returns the interval of a share; the full range if its error is unknown.
 fn bounds(share: Estimate) -> Interval {
     share.interval.unwrap_or(Interval { low: f64::NEG_INFINITY, high: f64::INFINITY })
 }

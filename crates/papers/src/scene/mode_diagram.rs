@@ -49,7 +49,7 @@ pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Chart {
     Chart::new("Modes of motion", caption(diagram)).panels([panel])
 }
 
-/// Says which modes begin at the scene's own angle, the one of the smallest force first.
+/// Says which modes begin at the scene's angle, the one of the smallest force first.
 fn caption(diagram: &ModeDiagram) -> String {
     let (slip_angle, slip_force) = diagram.slip;
     let slip = diagram.angle.iter().position(|angle| *angle == slip_angle);

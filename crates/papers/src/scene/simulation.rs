@@ -130,7 +130,7 @@ pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SceneError> {
 pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Failure> {
     let pushing = pushing(*scene, options);
     let critical = critical_force(scene, options)?;
-    // The scene's own angle is included, so that its slip can be read from the steep curves.
+    // The scene's angle is included, so that its slip can be read from the steep curves.
     let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
     let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);

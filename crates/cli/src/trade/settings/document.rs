@@ -12,7 +12,7 @@ use super::{Advice, Comparison, Measured};
 /// Errors below this are drawn at this value.
 const MIN_ERROR: f64 = 1e-6;
 
-/// Maximum number of curves that are drawn: the study's own and the chosen ones, then the other rungs.
+/// Maximum number of curves that are drawn: the study's curve and the chosen ones, then the other rungs.
 const CURVES: usize = 6;
 
 /// Builds the document of a comparison.
@@ -128,7 +128,7 @@ fn is_rung(curve: &[Measured]) -> bool {
     curve[0].axis == Varied::Fidelity && !curve[0].has_surrogate
 }
 
-/// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the whole time if the
+/// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the total time if the
 /// rung is so slow that it was measured only once.
 fn seconds_of_run(curve: &[Measured]) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);

@@ -1,7 +1,7 @@
 //! Comparison of the settings of a study: the time of each, and the distance of its indices from the reference.
 //!
 //! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
-//! part of the time allows; its own error is part of every reported error. Times are measured, so they differ between
+//! part of the time allows; the error of the reference is part of every reported error. Times are measured, so they differ between
 //! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/trade.md`.
 
 mod curve;
@@ -51,7 +51,7 @@ pub struct SettingsJob<'a> {
     pub threads: usize,
     /// Stops it soon after it is set.
     pub stop: &'a AtomicBool,
-    /// Receives the next measurement, and the completed part of the whole.
+    /// Receives the next measurement, and the completed part of the comparison.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
@@ -77,8 +77,8 @@ pub struct Comparison {
     /// Number of threads of the runs.
     pub threads: usize,
     /// The reference for the errors.
-    pub truth: TruthFound,
-    /// The curve of the study's own model and sampler, without surrogates.
+    pub truth: TruthRecord,
+    /// The curve of the study's model and sampler, without surrogates.
     pub own: String,
     /// All measured settings.
     pub settings: Vec<Measured>,
@@ -97,10 +97,10 @@ pub struct Advice {
 
 /// The reference for the errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TruthFound {
+pub struct TruthRecord {
     /// Its description.
     pub words: String,
-    /// Its own error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
+    /// Its error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
     pub error: Option<f64>,
     /// Number of model runs for it.
     pub runs: u64,
@@ -161,17 +161,17 @@ fn front(settings: &[Measured], truth_error: f64) -> Vec<usize> {
 }
 
 /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the study's
-/// curve `own` instead, if that differs from that by no more than the noise of time and error.
-fn cheapest(settings: &[Measured], truth_error: f64, own: &str, accuracy: f64) -> Option<usize> {
+/// curve `study_curve` instead, if that differs from that by no more than the noise of time and error.
+fn cheapest(settings: &[Measured], truth_error: f64, study_curve: &str, accuracy: f64) -> Option<usize> {
     let mut front = front(settings, truth_error).into_iter();
     let quickest = front.find(|&k| settings[k].error.is_some_and(|error| error + truth_error <= accuracy))?;
     let best = &settings[quickest];
-    if best.is_on(own) {
+    if best.is_on(study_curve) {
         return Some(quickest);
     }
     let alike = settings.iter().position(|of| {
         let reaches = of.least_error.is_some_and(|error| error + truth_error <= accuracy);
-        of.is_on(own) && of.seconds <= best.usual_seconds && reaches
+        of.is_on(study_curve) && of.seconds <= best.usual_seconds && reaches
     });
     alike.or(Some(quickest))
 }
@@ -184,7 +184,7 @@ type Indices = Vec<[f64; 2]>;
 
 struct Truth {
     outputs: Vec<Option<Indices>>,
-    found: TruthFound,
+    record: TruthRecord,
 }
 
 impl Truth {
@@ -194,8 +194,8 @@ impl Truth {
         if let Some((first, total)) = study.subject().exact_indices(study.space()) {
             let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
             let words = "the exact indices of the function".to_owned();
-            let found = TruthFound { words, error: Some(0.0), runs: 0, seconds: 0.0 };
-            return Ok(Self { outputs: vec![Some(indices)], found });
+            let record = TruthRecord { words, error: Some(0.0), runs: 0, seconds: 0.0 };
+            return Ok(Self { outputs: vec![Some(indices)], record });
         }
         let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
         let name = rung.as_ref().map_or_else(String::new, |rung| rung.name.clone());
@@ -220,8 +220,8 @@ impl Truth {
         }
         let runs = result.spending.as_ref().map_or(result.provenance.model_runs, |spending| spending.runs);
         let words = format!("a run of {name} with {} base samples", result.provenance.base_samples);
-        let found = TruthFound { words, error, runs, seconds: start.elapsed().as_secs_f64() };
-        Ok(Self { outputs, found })
+        let record = TruthRecord { words, error, runs, seconds: start.elapsed().as_secs_f64() };
+        Ok(Self { outputs, record })
     }
 }
 
@@ -241,7 +241,7 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    let (truth, own) = (truth.found, job.study.subject().rung_name());
+    let (truth, own) = (truth.record, job.study.subject().rung_name());
     let truth_error = truth.error.unwrap_or(f64::INFINITY);
     for place in front(&settings, truth_error) {
         settings[place].is_on_front = true;

@@ -54,7 +54,7 @@ impl Curve {
         steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
     }
 
-    /// Returns the largest distance from the least-squares line, in units of the whole change, and R^2 of that line.
+    /// Returns the largest distance from the least-squares line, in units of the total change, and R^2 of that line.
     pub fn bend(&self) -> (f64, f64) {
         let x = (&self.x[..], sum::mean(&self.x));
         let y = (&self.y[..], sum::mean(&self.y));

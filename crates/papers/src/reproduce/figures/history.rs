@@ -132,7 +132,7 @@ pub(super) fn displacement() -> Result<(Chart, String), Failure> {
     );
     let mut panels = ours.panels;
     if let Some(panel) = panels.first_mut() {
-        // After its own line, the third of the chart.
+        // After our line, the third of the chart.
         panel.marks.insert(panel.marks.len().min(3), other);
     }
     let as_printed = format!("{modulus} GPa");
