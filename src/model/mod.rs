@@ -48,8 +48,16 @@ impl Output {
     }
 }
 
-/// A choice of a model: its key, where it applies if not everywhere, and the names or the kind of value.
-pub type Choice = (&'static str, Vec<&'static str>);
+/// A choice of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The key in study files.
+    pub key: &'static str,
+    /// Where it applies; empty if everywhere.
+    pub scope: &'static str,
+    /// The names, or the kind of value.
+    pub values: Vec<&'static str>,
+}
 
 /// An input of a model, which a study can make a factor.
 #[derive(Debug, Clone, PartialEq)]

@@ -175,11 +175,9 @@ fn description(study: &Study) -> Value {
         })
     });
     let choices = kind.map(ModelKind::choices).unwrap_or_default();
-    let choices = choices.iter().filter_map(|(name, values)| {
-        // Behind some names stands where they count.
-        let name = name.split(' ').next()?;
-        let value = setup.settings.get(name)?;
-        (values.len() > 1).then(|| json!({ "name": name, "values": values, "value": value }))
+    let choices = choices.iter().filter_map(|choice| {
+        let value = setup.settings.get(choice.key)?;
+        (choice.values.len() > 1).then(|| json!({ "name": choice.key, "values": choice.values, "value": value }))
     });
     let model = study.model();
     // A series is one, at the place of its first value.

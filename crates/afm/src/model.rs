@@ -37,7 +37,7 @@ pub fn edge_unit(parameter: &Parameter) -> Unit {
 
 /// Returns the parameters of the scene as inputs of the model.
 pub fn afm_inputs() -> Vec<Input> {
-    let input = |parameter: &Parameter| {
+    let inputs = Parameter::ALL.iter().map(|parameter| {
         let unit = edge_unit(parameter);
         Input {
             name: parameter.name.to_owned(),
@@ -48,36 +48,32 @@ pub fn afm_inputs() -> Vec<Input> {
             distribution: None,
             description: parameter.description.to_owned(),
         }
-    };
-    Parameter::ALL.iter().map(input).collect()
+    });
+    inputs.collect()
 }
 
 /// Returns every output, then every history.
 pub fn afm_outputs() -> Vec<Output> {
-    AfmOutput::ALL
-        .iter()
-        .map(|output| output.info())
-        .chain(AfmHistory::ALL.iter().map(|history| history.info()))
-        .collect()
+    let outputs = AfmOutput::ALL.iter().map(|output| output.info());
+    outputs.chain(AfmHistory::ALL.iter().map(|history| history.info())).collect()
 }
 
 /// Returns the choices of `[afm]`.
 pub fn afm_choices() -> Vec<Choice> {
-    vec![
-        ("friction", FrictionLaw::ALL.map(FrictionLaw::name).to_vec()),
-        ("contact", ContactTheory::ALL.map(ContactTheory::name).to_vec()),
-        ("fidelity", Fidelity::ALL.map(Fidelity::name).to_vec()),
-        ("torsion", Torsion::ALL.map(Torsion::name).to_vec()),
-        ("adhesion_in_load", vec!["false", "true"]),
-        (
-            "lugre_parameters (lugre at quasi-static and above)",
-            LuGreParameters::ALL.map(LuGreParameters::name).to_vec(),
-        ),
-        ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
-        ("step (fixed-step)", vec!["a time, \"10 ms\""]),
-        ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
-        ("history (of the outputs NAME_history)", vec!["a table, { duration = \"0.4 s\", points = 40 }"]),
-    ]
+    let lugre_parameters = LuGreParameters::ALL.map(LuGreParameters::name).to_vec();
+    let choices = [
+        ("friction", "", FrictionLaw::ALL.map(FrictionLaw::name).to_vec()),
+        ("contact", "", ContactTheory::ALL.map(ContactTheory::name).to_vec()),
+        ("fidelity", "", Fidelity::ALL.map(Fidelity::name).to_vec()),
+        ("torsion", "", Torsion::ALL.map(Torsion::name).to_vec()),
+        ("adhesion_in_load", "", vec!["false", "true"]),
+        ("lugre_parameters", "lugre at quasi-static and above", lugre_parameters),
+        ("tolerance", "quasi-static and above", vec!["a number, 1e-6"]),
+        ("step", "fixed-step", vec!["a time, \"10 ms\""]),
+        ("step_budget", "marched rungs", vec!["a whole number, 1000000"]),
+        ("history", "of the outputs NAME_history", vec!["a table, { duration = \"0.4 s\", points = 40 }"]),
+    ];
+    choices.into_iter().map(|(key, scope, values)| Choice { key, scope, values }).collect()
 }
 
 /// Number of rows between two checks whether the run must stop: rows of the finest fidelity take milliseconds.
@@ -109,22 +105,20 @@ impl AfmModel {
             .iter()
             .map(|f| Flag { name: f.name().into(), description: f.description().into(), warns: false })
             .collect();
-        let counter = |name: String, kind| Counter { name: name.into(), kind };
-        let rungs = Fidelity::ALL.iter().map(|rung| counter(format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
-        let cost = [(EVALUATIONS, CounterKind::Sum), (LARGEST_ERROR, CounterKind::Maximum)];
-        let counters = rungs.chain(cost.map(|(name, kind)| counter(name.to_owned(), kind))).collect();
+        let rungs = Fidelity::ALL.iter().map(|rung| (format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
+        let cost = [(EVALUATIONS.to_owned(), CounterKind::Sum), (LARGEST_ERROR.to_owned(), CounterKind::Maximum)];
+        let counters = rungs.chain(cost).map(|(name, kind)| Counter { name: name.into(), kind }).collect();
         Self { scene, options, factors, outputs, which, histories: Histories::default(), flags, counters }
     }
 
     /// Adds to the flag of the Tabor parameter what a suitable contact theory would change at the point `nominal`.
     #[must_use]
     pub fn with_nominal(mut self, nominal: &Scene) -> Self {
-        let force = |contact| {
+        let [suited, chosen] = [ContactTheory::Auto, self.options.contact].map(|contact| {
             let options = Options { contact, fidelity: Fidelity::ClosedForm, ..self.options };
             critical_force(nominal, &options).ok().map(|critical| critical.critical_force)
-        };
-        let change =
-            force(ContactTheory::Auto).zip(force(self.options.contact)).map(|(suited, own)| suited / own - 1.0);
+        });
+        let change = suited.zip(chosen).map(|(suited, chosen)| suited / chosen - 1.0);
         let flag = self.flags.iter_mut().find(|flag| flag.name == crate::Flag::TaborOutOfRange.name());
         if let (Some(change), Some(flag)) = (change.filter(|change| change.is_finite() && *change != 0.0), flag) {
             flag.description.to_mut().push_str(&format!(
@@ -215,7 +209,9 @@ impl AfmWorker<'_> {
         match critical_force(&self.scene, &self.model.options) {
             Err(failure) => {
                 let reason = reason(failure);
-                (0..self.model.which.len()).for_each(|column| batch.fail(row, column, reason.clone()));
+                for column in 0..self.model.which.len() {
+                    batch.fail(row, column, reason.clone());
+                }
             }
             Ok(critical) => self.write(row, &critical, batch),
         }

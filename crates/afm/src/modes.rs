@@ -138,28 +138,28 @@ impl Pushing {
         // F_T cos(psi - phi) and F_T sin(psi - phi): along the line from the tip to the particle, and across it.
         let along = force.normal * cos + force.lateral * sin;
         let across = force.lateral * cos - force.normal * sin;
-        let substrate = || Loaded::new(self.theory, Pair::substrate(&self.scene), force.normal);
-        let tip = || Loaded::new(self.theory, Pair::tip(&self.scene), along);
         let balance = match mode {
             Mode::Slide => Balance {
                 drive: force.lateral.abs(),
-                resistance: self.friction(self.scene.static_friction, &substrate()?),
+                resistance: self.friction(self.scene.static_friction, &self.substrate(force.normal)?),
             },
-            Mode::TipSlip => {
-                Balance { drive: across.abs(), resistance: self.friction(self.constants.tip_friction, &tip()?) }
-            }
+            Mode::TipSlip => Balance {
+                drive: across.abs(),
+                resistance: self.friction(self.constants.tip_friction, &self.tip(along)?),
+            },
             Mode::Roll => {
-                let (substrate, tip) = (substrate()?, tip()?);
-                let lever = |at: &Loaded| particle_radius - at.contact.indentation;
+                let (substrate, tip) = (self.substrate(force.normal)?, self.tip(along)?);
+                let [at_substrate, at_tip] =
+                    [&substrate, &tip].map(|loaded| particle_radius - loaded.contact.indentation);
                 let shift = self.constants.rolling_shift;
                 Balance {
-                    drive: (lever(&substrate) * force.lateral + lever(&tip) * across).abs(),
+                    drive: (at_substrate * force.lateral + at_tip * across).abs(),
                     resistance: substrate.rolling(self.theory, shift)? + tip.rolling(self.theory, shift)?,
                 }
             }
             Mode::Spin => Balance {
                 drive: force.lateral.abs() * self.constants.offset,
-                resistance: 2.0 * PI / 3.0 * shear_strength * substrate()?.contact.radius.powi(3),
+                resistance: 2.0 * PI / 3.0 * shear_strength * self.substrate(force.normal)?.contact.radius.powi(3),
             },
         };
         if balance.drive.is_finite() && balance.resistance.is_finite() {
@@ -192,6 +192,14 @@ impl Pushing {
     pub fn critical_tip_force(&self, mode: Mode, angle: f64) -> Result<Option<f64>, Failure> {
         Failure::unless_in(Domain::AcuteAngle, "psi", angle)?;
         first_true(|size| Ok(self.balance(mode, TipForce::polar(size, angle))?.moves()))
+    }
+
+    fn substrate(&self, normal_force: f64) -> Result<Loaded, Failure> {
+        Loaded::new(self.theory, Pair::substrate(&self.scene), normal_force)
+    }
+
+    fn tip(&self, force: f64) -> Result<Loaded, Failure> {
+        Loaded::new(self.theory, Pair::tip(&self.scene), force)
     }
 
     /// Returns mu (N + q F_ad) + tau A.

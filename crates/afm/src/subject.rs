@@ -40,12 +40,13 @@ impl Subject for AfmSubject {
     }
 
     fn model(&self, space: &Space) -> Arc<dyn Model> {
-        let of_space = space.factors().iter().filter_map(|factor| Some((Parameter::from_name(&factor.name)?, factor)));
-        let mut nominal = self.scene;
-        of_space
-            .clone()
-            .for_each(|(parameter, factor)| (parameter.set)(&mut nominal, factor.unit().to_si(factor.nominal)));
-        let factors = of_space.map(|(parameter, _)| parameter).collect();
+        let (mut nominal, mut factors) = (self.scene, Vec::new());
+        for factor in space.factors() {
+            if let Some(parameter) = Parameter::from_name(&factor.name) {
+                (parameter.set)(&mut nominal, factor.unit().to_si(factor.nominal));
+                factors.push(parameter);
+            }
+        }
         let model = AfmModel::new(self.scene, self.options, factors, self.outputs.clone()).with_nominal(&nominal);
         Arc::new(model.with_histories(&self.histories, &self.moments))
     }
@@ -85,18 +86,19 @@ impl Subject for AfmSubject {
     /// adaptively at three tolerances.
     fn rungs(&self) -> Vec<Rung> {
         let Options { tolerance, step, .. } = Options::default();
-        let of = |fidelity| Options { fidelity, tolerance, step, ..self.options };
-        let (marched, dynamic) = (of(Fidelity::FixedStep), of(Fidelity::Dynamic));
+        let [closed, quasi_static, marched, dynamic] =
+            [Fidelity::ClosedForm, Fidelity::QuasiStatic, Fidelity::FixedStep, Fidelity::Dynamic]
+                .map(|fidelity| Options { fidelity, tolerance, step, ..self.options });
         let ladder = [
-            of(Fidelity::ClosedForm),
-            of(Fidelity::QuasiStatic),
+            closed,
+            quasi_static,
             marched,
             Options { step: SHORT_STEP, ..marched },
             Options { tolerance: 1e-3, ..dynamic },
             dynamic,
             Options { tolerance: FINEST_TOLERANCE, ..dynamic },
         ];
-        let rung = |options: Options| {
+        let rungs = ladder.into_iter().map(|options| {
             let subject = Self { options, ..self.clone() };
             let mut lines = format!("[afm]\nfidelity = \"{}\"\n", options.fidelity.name());
             match options.fidelity {
@@ -110,32 +112,39 @@ impl Subject for AfmSubject {
                 lines,
                 is_finest: options.tolerance == FINEST_TOLERANCE,
             }
-        };
-        ladder.into_iter().map(rung).collect()
+        });
+        rungs.collect()
     }
 
     fn cheaper(&self) -> Vec<LowFidelity> {
-        let at = |fidelity: Fidelity| LowFidelity {
+        let cheaper: &[Fidelity] = match self.options.fidelity {
+            Fidelity::ClosedForm => &[],
+            Fidelity::QuasiStatic | Fidelity::Auto => &[Fidelity::ClosedForm],
+            Fidelity::Dynamic | Fidelity::FixedStep => &[Fidelity::QuasiStatic, Fidelity::ClosedForm],
+        };
+        let cheaper = cheaper.iter().map(|&fidelity| LowFidelity {
             name: fidelity.name().to_owned(),
             subject: Arc::new(Self { options: Options { fidelity, ..self.options }, ..self.clone() }),
             base_samples: None,
-        };
-        match self.options.fidelity {
-            Fidelity::ClosedForm => Vec::new(),
-            Fidelity::QuasiStatic | Fidelity::Auto => vec![at(Fidelity::ClosedForm)],
-            Fidelity::Dynamic | Fidelity::FixedStep => vec![at(Fidelity::QuasiStatic), at(Fidelity::ClosedForm)],
-        }
+        });
+        cheaper.collect()
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        // An unset shear modulus follows E and nu: it is not a constant.
-        let is_set = |p: &Parameter| p.name != "shear_modulus" || self.scene.shear_modulus.is_some();
-        let constants = Parameter::ALL.iter().filter(|p| !is_factor(space, p.name) && is_set(p));
-        let constant = |p: &Parameter| {
-            let unit = edge_unit(p);
-            (p.name.to_owned(), unit.from_si((p.get)(&self.scene)), unit.to_string())
-        };
-        constants.map(constant).collect()
+        let mut constants = Vec::new();
+        for parameter in Parameter::ALL {
+            // An unset shear modulus follows E and nu: it is not a constant.
+            let is_set = parameter.name != "shear_modulus" || self.scene.shear_modulus.is_some();
+            if is_set && !is_factor(space, parameter.name) {
+                let unit = edge_unit(parameter);
+                constants.push((
+                    parameter.name.to_owned(),
+                    unit.from_si((parameter.get)(&self.scene)),
+                    unit.to_string(),
+                ));
+            }
+        }
+        constants
     }
 
     fn meaning(&self, input: &str) -> Option<String> {
@@ -145,12 +154,12 @@ impl Subject for AfmSubject {
     /// Adds velocity and adhesion, which may be zero.
     fn further_inputs(&self, space: &Space) -> Vec<Factor> {
         let further = ["velocity", "adhesion"].into_iter().filter(|name| !is_factor(space, name));
-        let constant = |name: &'static str| {
+        let constants = further.filter_map(|name| {
             let parameter = Parameter::from_name(name)?;
             let unit = edge_unit(parameter);
             let value = Distribution::constant(unit.from_si((parameter.get)(&self.scene))).ok()?;
             Factor::new(name, unit, value).ok()
-        };
-        further.filter_map(constant).collect()
+        });
+        constants.collect()
     }
 }

@@ -12,6 +12,7 @@ use apportion::screening::ScreeningError;
 use apportion::sweep::SweepError;
 use apportion_files::StudyError;
 use apportion_files::exchange::EvaluateError;
+use apportion_papers::scene::simulation::SceneError;
 use apportion_report::{ArtefactError, WriteError};
 use thiserror::Error;
 
@@ -85,6 +86,8 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
         !matches!(error, ScreeningError::Run(_))
     } else if let Some(error) = error.downcast_ref::<WriteError>() {
         is_bad_path(error)
+    } else if let Some(error) = error.downcast_ref::<SceneError>() {
+        matches!(error, SceneError::OtherModel { .. })
     } else {
         error.is::<BadInput>()
             || error.is::<Silent>()

@@ -1,12 +1,9 @@
-//! The command-line program `apportion`: its commands, the reproduction of the papers, scenes in time, the trade-off of
-//! accuracy and time, and live pages.
+//! The command-line program `apportion`: its commands, the trade-off of accuracy and time, and live pages.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod commands;
 mod failure;
-mod reproduce;
-mod scene;
 pub mod trade;
 
 pub use commands::main;

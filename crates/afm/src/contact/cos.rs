@@ -18,14 +18,17 @@ impl Transition {
     #[inline]
     fn new(lambda: f64) -> Self {
         let log = libm::log(lambda);
-        // (x - 1)/(x + 1), from -1 to 1.
-        let blend = |x: f64| 1.0 - 2.0 / (x + 1.0);
         Self {
             alpha: -libm::expm1(-lambda / 0.924) / 1.02,
             rest: 1.54 + 0.279 * blend(2.28 * libm::exp(1.3 * log)),
             pull_off: 1.75 - 0.25 * blend(4.04 * libm::exp(1.4 * log)),
         }
     }
+}
+
+/// Returns (x - 1)/(x + 1), from -1 to 1.
+fn blend(x: f64) -> f64 {
+    1.0 - 2.0 / (x + 1.0)
 }
 
 /// Returns a = a0 [(alpha + sqrt(1 + F/F_ad))/(1 + alpha)]^(2/3), F_ad the [pull-off force](pull_off), a0 = (pi w

@@ -14,7 +14,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let (exact, shared) = quasi_static::critical_force(scene, options, options.accurate_time)?;
     // At rest there are no dynamics.
     let best = exact.error_estimate <= options.tolerance + shared || scene.velocity == 0.0;
-    let (found, spent) =
+    let (refined, spent) =
         if best { (exact, spent) } else { (dynamic::critical_force(scene, options)?, spent + exact.evaluations) };
-    Ok(Critical { evaluations: spent + found.evaluations, ..found })
+    Ok(Critical { evaluations: spent + refined.evaluations, ..refined })
 }

@@ -80,7 +80,18 @@ impl<'a> Bristles<'a> {
         let mut largest = End { t: 0.0, y: start };
         // The last step well before the slip, whose force is 1 by the quasi-static rung.
         let mut before = End { t: 0.0, y: start };
-        let event = |t: f64, y: &[f64; 5]| {
+        // Bristles and dashpots each approach their limit exponentially: to 1e-12 in 28 time constants.
+        let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
+        // While the bristles stretch, the error of the particle's velocity is weighted by its effect on them. When they
+        // saturate, this velocity determines the time of the maximum. Its error is that of a stiff unknown, which the
+        // next steps forget: a tenth of the weight changes force and time by less than a tenth of their own errors.
+        let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
+        let (Outcome::Event(half) | Outcome::Horizon(half)) =
+            stretching.until(horizon, |t, y| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5))?;
+        let [forces, turning, way, _, bristles] = control.scale;
+        let control = Control { scale: [forces, turning, way, 10.0, bristles], ..control };
+        let mut march = March::<Rodas, _, 5>::new(self, (half.t, half.y), control);
+        let outcome = march.until(horizon, |t, y| {
             let &[q, _, x, u, _] = y;
             if q < REACHED - 1e-3 && t > before.t {
                 before = End { t, y: *y };
@@ -90,19 +101,7 @@ impl<'a> Bristles<'a> {
             }
             let steady = self.strength(self.load(t - x, q), 1.0) + self.viscosity;
             Ok((q / steady - 1.0 + tolerance).min(u - 1.0 + near))
-        };
-        // Bristles and dashpots each approach their limit exponentially: to 1e-12 in 28 time constants.
-        let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
-        // While the bristles stretch, the error of the particle's velocity is weighted by its effect on them. When they
-        // saturate, this velocity determines the time of the maximum. Its error is that of a stiff unknown, which the
-        // next steps forget: a tenth of the weight changes force and time by less than a tenth of their own errors.
-        let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
-        let halfway = |t: f64, y: &[f64; 5]| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5);
-        let (Outcome::Event(half) | Outcome::Horizon(half)) = stretching.until(horizon, halfway)?;
-        let [forces, turning, way, _, bristles] = control.scale;
-        let control = Control { scale: [forces, turning, way, 10.0, bristles], ..control };
-        let mut march = March::<Rodas, _, 5>::new(self, (half.t, half.y), control);
-        let outcome = march.until(horizon, event)?;
+        })?;
         let end = match outcome {
             Outcome::Event(end) => end,
             // The force stayed below that of steady sliding: use the largest one.

@@ -9,8 +9,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::motion::Motion;
-use super::quasi_static::Statics;
 use super::slip::Slip;
+use super::statics::Statics;
 use super::substrate::Substrate;
 use crate::Failure;
 use crate::ode::End;
@@ -83,11 +83,13 @@ impl Motion<'_> {
         let slope = (statics.lateral_force_slope(theta) + fading) / travel_slope(statics, theta) * scene.velocity;
         let turns = self.phase(theta);
         let phase = turns + libm::atan2(cosine, sine);
-        let crossing = |offset: f64| first_crossing(slope / frequency / amplitude, offset, phase);
+        let steepness = slope / frequency / amplitude;
         let offset = mean / amplitude;
         // The error of the adiabatic approximation is of the order of the change in one period.
         let doubt = overtone / amplitude + self.drift(theta) / turns + 1e-14 * turns + 1e-6;
-        let (here, early, late) = (crossing(offset)?, crossing(offset + doubt)?, crossing(offset - doubt)?);
+        let [here, early, late] =
+            [offset, offset + doubt, offset - doubt].map(|offset| first_crossing(steepness, offset, phase));
+        let (here, early, late) = (here?, early?, late?);
         let share = 1.0 / (frequency * self.time);
         let away = (here * share).abs();
         let error = ((early - here).abs().max((late - here).abs()) * share + away * away).min(1.0);
@@ -151,19 +153,21 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
+/// Returns the integral of `f` from 0 to `end` over so many panels.
+fn integral_by(panels: u32, end: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let half = 0.5 * end / f64::from(panels);
+    let panels = (0..panels).map(|i| {
+        let middle = f64::from(2 * i + 1) * half;
+        GAUSS.iter().map(|&(x, weight)| weight * f(middle + half * x)).sum::<f64>() * half
+    });
+    panels.sum()
+}
+
 /// Returns the integral of a smooth `f` from 0 to `end`, to rounding: panels are halved until the result is constant.
 fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let by = |panels: u32| {
-        let half = 0.5 * end / f64::from(panels);
-        let panel = |i: u32| {
-            let middle = f64::from(2 * i + 1) * half;
-            GAUSS.iter().map(|&(x, weight)| weight * f(middle + half * x)).sum::<f64>() * half
-        };
-        (0..panels).map(panel).sum::<f64>()
-    };
-    let mut sum = by(1);
+    let mut sum = integral_by(1, end, &f);
     for halving in 1..=8 {
-        let finer = by(1 << halving);
+        let finer = integral_by(1 << halving, end, &f);
         let change = (finer - sum).abs();
         sum = finer;
         if change <= 1e-14 * sum.abs() {

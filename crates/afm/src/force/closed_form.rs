@@ -99,7 +99,8 @@ fn time_error(
     let further = height * (twist - slip.twist + twist.powi(3)) / slip.travel;
     // Three times: bristles whose load falls meanwhile creep less, by up to twice that.
     let of_forces = 3.0 * (twisting(substrate, probe, slip).lateral + of_law) / slip.lateral_force;
-    let of_creep = presliding.map_or(0.0, |presliding| presliding.error(slip)) + substrate.viscous_rise(slip);
+    let of_creep = presliding.map_or(0.0, |presliding| presliding.error(slip))
+        + substrate.viscous_rise(slip.normal_force, slip.lateral_force);
     let all = further.abs() + of_forces + of_creep + Swing::new(substrate.scene, probe).of_time(slip, substrate);
     if twist > 0.0 && all < 1.0 { all } else { 1.0 }
 }

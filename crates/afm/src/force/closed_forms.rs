@@ -100,8 +100,8 @@ impl ClosedForms {
         let mut columns = Columns::from_scene(scene);
         let is_closed = options.fidelity == Fidelity::ClosedForm && options.friction != FrictionLaw::LemaitreCarlson;
         let has_columns = parameters.iter().all(|parameter| columns.get(parameter.name).is_some());
-        let others = || Parameter::ALL.iter().filter(|other| parameters.iter().all(|one| one.name != other.name));
-        let are_ordinary = others().all(|other| ordinary(other.domain).contains(&(other.get)(scene)));
+        let mut others = Parameter::ALL.iter().filter(|other| parameters.iter().all(|one| one.name != other.name));
+        let are_ordinary = others.all(|other| ordinary(other.domain).contains(&(other.get)(scene)));
         if !(is_closed && has_columns && are_ordinary && options.check().is_ok()) {
             return None;
         }

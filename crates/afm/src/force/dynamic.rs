@@ -12,8 +12,9 @@ use std::f64::consts::TAU;
 
 use super::bristles::Bristles;
 use super::motion::{FINEST, Motion, Tip, local_tolerance};
-use super::quasi_static::{self, Statics};
+use super::quasi_static;
 use super::slip::{Error, Slip};
+use super::statics::Statics;
 use super::substrate::Substrate;
 use super::swing::Swing;
 use super::{Critical, Options};
@@ -34,12 +35,12 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     // A subnormal velocity has too few digits for an integration.
     if scene.velocity >= f64::MIN_POSITIVE && limit.travel > 0.0 && limit.lateral_force > 0.0 {
         let motion = Motion::new(scene, &statics, &limit);
-        let (found, spent) = if options.friction == FrictionLaw::LuGre {
+        let (located, spent) = if options.friction == FrictionLaw::LuGre {
             Bristles::new(&motion, &substrate, &limit).slip()?
         } else {
             stuck(&motion, &substrate, &limit)?
         };
-        slip = found.held_back()?;
+        slip = located.held_back()?;
         evaluations += spent;
     }
     // A difference that inertia does not explain is an error of the integration: far outside any laboratory it steps
@@ -58,7 +59,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         (slip.travel, slip.advance) = (limit.travel, limit.advance);
         of_time += swing.of_time(&slip, &substrate);
     } else if options.friction == FrictionLaw::LuGre {
-        // On these bristles its own time, in place of the quasi-static one.
+        // On these bristles the time of this rung, in place of the quasi-static one.
         of_time = swing.of_time(&slip, &substrate) + options.tolerance * slip.sensitivity();
         error = error + swing.left_out(&slip, &substrate);
         if !swing.is_followed(limit.travel, scene.velocity) {

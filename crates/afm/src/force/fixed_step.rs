@@ -2,8 +2,8 @@
 
 use super::dynamic::surely_holds;
 use super::motion::Motion;
-use super::quasi_static::Statics;
 use super::slip::{Error, Slip};
+use super::statics::Statics;
 use super::substrate::Substrate;
 use super::{Critical, Options};
 use crate::friction::LuGreForm;
@@ -22,8 +22,8 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     evaluations += spent;
     let mut slip = limit;
     if scene.velocity > 0.0 && slip.travel > 0.0 && slip.lateral_force > 0.0 {
-        let (found, spent) = march(&Motion::new(scene, &statics, &slip), &substrate, &slip)?;
-        slip = found.held_back()?;
+        let (located, spent) = march(&Motion::new(scene, &statics, &slip), &substrate, &slip)?;
+        slip = located.held_back()?;
         evaluations += spent;
     }
     let mut error = Error { normal: 0.0, lateral: probe.apex * scene.velocity * options.step };

@@ -12,6 +12,7 @@ mod motion;
 mod presliding;
 mod quasi_static;
 mod slip;
+mod statics;
 mod substrate;
 mod swing;
 #[cfg(test)]
@@ -21,7 +22,7 @@ use apportion_base::names::named;
 use apportion_base::quantity::Domain;
 pub use closed_forms::{AT_ONCE, ClosedForms, Column, Slips};
 pub(super) use presliding::Presliding;
-pub(super) use quasi_static::Statics;
+pub(super) use statics::Statics;
 pub(super) use substrate::Substrate;
 
 use super::friction::LuGreParameters;

@@ -8,8 +8,8 @@
 //! theta', the twist from the constraint: y_P and not theta, since F_Y = K_y y_P and the cantilever is far stiffer
 //! laterally than in torsion. In units of the quasi-static slip: its F_Y for forces, its time for time, V/H for theta'.
 
-use super::quasi_static::Statics;
 use super::slip::Slip;
+use super::statics::Statics;
 use super::swing::{Swing, inertia_about_apex};
 use crate::ode::Problem;
 use crate::{Options, Scene};

@@ -67,7 +67,10 @@ impl Presliding {
             FrictionLaw::Dahl => (scene.bristle_stiffness, Self { exponent: scene.dahl_exponent, ..Self::default() }),
             FrictionLaw::Armstrong => (scene.bristle_stiffness, Self::default()),
             // A linear spring with the shear stiffness of the layer.
-            FrictionLaw::LemaitreCarlson => (substrate.layer_stiffness(slip)?, Self::default()),
+            FrictionLaw::LemaitreCarlson => {
+                let force = REACHED * slip.lateral_force;
+                (substrate.layer_stiffness(slip.contact.radius, force)?, Self::default())
+            }
         };
         let drop = (probe.preload_force - slip.normal_force) / load;
         let strength = slip.lateral_force / (1.0 + way.viscosity);
@@ -91,19 +94,22 @@ impl Presliding {
     /// Returns u (m) where the force is below its peak by the share `missing`, to first order in the decrease of the load.
     pub fn creep(&self, missing: f64) -> f64 {
         let rho = self.reserve(missing);
-        // The integral of rho^(k - alpha) from rho to 1.
-        let power = |k: f64| {
+        // The integrals of rho^(k - alpha) from rho to 1.
+        let [at_load, first, second] = [0.0, 1.0, 2.0].map(|k| {
             let n = k + 1.0 - self.exponent;
             if n == 0.0 { -libm::log(rho) } else { -libm::expm1(n * libm::log(rho)) / n }
-        };
-        let whole = power(0.0);
+        });
         let dropped = if self.exponent == 0.0 || self.drop == 0.0 {
             0.0
         } else {
-            self.exponent * self.drop * (2.0 * whole - 3.0 * power(1.0) + power(2.0))
+            self.exponent * self.drop * (2.0 * at_load - 3.0 * first + second)
         };
         // Not below zero, for any decrease of the load.
-        if dropped > 0.0 { self.length * whole * (whole / (whole + dropped)) } else { self.length * (whole - dropped) }
+        if dropped > 0.0 {
+            self.length * at_load * (at_load / (at_load + dropped))
+        } else {
+            self.length * (at_load - dropped)
+        }
     }
 
     /// Returns V/(V - v) at the slip: the factor by which the force rises more slowly than for a particle at rest on the

@@ -71,23 +71,24 @@ impl Error {
         if size == 0.0 && self.normal == 0.0 && self.lateral == 0.0 {
             return ROUNDING;
         }
-        let part = |force: f64, error: f64| if error == 0.0 { 0.0 } else { force.abs() / size * (error / size) };
-        let relative = part(slip.normal_force, self.normal) + part(slip.lateral_force, self.lateral);
+        let [normal, lateral] = [(slip.normal_force, self.normal), (slip.lateral_force, self.lateral)]
+            .map(|(force, error)| if error == 0.0 { 0.0 } else { force.abs() / size * (error / size) });
+        let relative = normal + lateral;
         if relative.is_nan() { 1.0 } else { (ROUNDING + relative).min(1.0) }
     }
+}
+
+/// Returns the size of a difference beyond what is `allowed`; an allowance of NaN allows nothing.
+fn excess(difference: f64, allowed: f64) -> f64 {
+    if difference.abs() <= allowed { 0.0 } else { difference.abs() - allowed.max(0.0) }
 }
 
 impl Slip {
     /// Returns the distance of this slip from `other`, beyond what is `allowed`.
     pub(super) fn beyond(&self, other: &Self, allowed: Error) -> Error {
-        let excess = |here: f64, there: f64, allowed: f64| {
-            let apart = (here - there).abs();
-            // An allowance of NaN allows nothing.
-            if apart <= allowed { 0.0 } else { apart - allowed.max(0.0) }
-        };
         Error {
-            normal: excess(self.normal_force, other.normal_force, allowed.normal),
-            lateral: excess(self.lateral_force, other.lateral_force, allowed.lateral),
+            normal: excess(self.normal_force - other.normal_force, allowed.normal),
+            lateral: excess(self.lateral_force - other.lateral_force, allowed.lateral),
         }
     }
 

@@ -1,7 +1,5 @@
 //! The hold on the particle: contact and friction on the substrate under a normal force.
 
-use super::presliding::REACHED;
-use super::slip::Slip;
 use crate::contact::{Contact, Pair};
 use crate::friction::{Drive, LemaitreCarlson, LuGreForm, Pressed, Stribeck};
 use crate::probe::Probe;
@@ -67,33 +65,32 @@ impl<'a> Substrate<'a> {
     pub fn error(&self) -> f64 {
         match self.options.friction {
             FrictionLaw::LuGre => self.drive.near_steady(),
-            // Found by a search: up to 1.1 times the tolerance of a step.
+            // Computed by a search: up to 1.1 times the tolerance of a step.
             FrictionLaw::LemaitreCarlson => 2.0 * self.drive.tolerance,
             _ => 0.0,
         }
     }
 
-    /// Returns the stiffness (N/m) of a spring that is stretched as far as a Lemaitre-Carlson layer is sheared when its
-    /// force is the share [`REACHED`] of that of `slip`.
+    /// Returns the stiffness (N/m) of a spring that is stretched as far as a Lemaitre-Carlson layer on a contact of
+    /// `radius` (m) is sheared when its force is `force` (N).
     ///
     /// # Errors
     /// Those of the integration.
-    pub fn layer_stiffness(&self, slip: &Slip) -> Result<f64, Failure> {
-        let force = REACHED * slip.lateral_force;
-        let travel = LemaitreCarlson(self.scene).travel(slip.contact.radius, force, &self.drive)?;
+    pub fn layer_stiffness(&self, radius: f64, force: f64) -> Result<f64, Failure> {
+        let travel = LemaitreCarlson(self.scene).travel(radius, force, &self.drive)?;
         // At least the value that rounding leaves of a layer far stiffer than the spring.
         let sheared = (travel - force / self.drive.stiffness).max(f64::EPSILON * travel);
         Ok(force / sheared)
     }
 
-    /// Returns a bound of the relative error of the time of slip under Stribeck friction if viscosity raises it above
-    /// its value at rest: from there on the particle moves, and the force only approaches its peak.
-    pub fn viscous_rise(&self, slip: &Slip) -> f64 {
+    /// Returns a bound of the relative error of the time of slip at these forces (N) under Stribeck friction if viscosity
+    /// raises it above its value at rest: from there on the particle moves, and the force only approaches its peak.
+    pub fn viscous_rise(&self, normal_force: f64, lateral_force: f64) -> f64 {
         if self.options.friction != FrictionLaw::Stribeck {
             return 0.0;
         }
-        let at_rest = Stribeck(self.scene).force(slip.normal_force + self.adhesive_load, 0.0);
-        10.0 * (1.0 - at_rest / slip.lateral_force).max(0.0)
+        let at_rest = Stribeck(self.scene).force(normal_force + self.adhesive_load, 0.0);
+        10.0 * (1.0 - at_rest / lateral_force).max(0.0)
     }
 
     /// Returns a bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in

@@ -18,15 +18,6 @@ impl Armstrong<'_> {
         load * (self.0.fresh_friction * (1.0 - aged) + self.0.static_friction * aged)
     }
 
-    /// Returns the friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one
-    /// lag ago and `dwell` (s) the rest before it slid.
-    pub fn sliding_force(&self, load: f64, velocity: f64, lagged: f64, dwell: f64) -> f64 {
-        let coulomb = self.0.dynamic_friction * load;
-        let ratio = lagged / self.0.stribeck_velocity;
-        let excess = self.static_force(load, dwell) - coulomb;
-        coulomb + excess / (1.0 + ratio * ratio) + self.0.viscous_friction * velocity
-    }
-
     /// Returns the force (N) at which a sticking contact breaks away when the force grows at `rate` (N/s), >= 0, after
     /// the rest t_r: static friction after the rest and the loading itself, F = static_force(t_r + F/rate). It is the
     /// positive root of a quadratic.

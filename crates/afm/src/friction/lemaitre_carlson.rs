@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use super::{Drive, Held, Pressed};
 use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
-use crate::root::{self, Point};
 use crate::{Failure, Scene};
 
 /// A glassy layer of thickness 2 h between particle and substrate, sheared by its whole area:
@@ -44,8 +43,9 @@ impl<'a> LemaitreCarlson<'a> {
             return Ok(Held { force: 0.0, evaluations: 0 });
         }
         // So close to gam' = V/(2h) that the remaining rise is below the tolerance, reached or only approached.
-        let near = |layer: &Sheared<'_>| drive.tolerance * (1.0 / layer.modulus).min(1.0);
-        let (end, evaluations) = self.pull(area, drive, |layer, y| layer.plastic_rate(y) - 1.0 + near(layer))?;
+        let (end, evaluations) = self.pull(area, drive, |layer, y| {
+            layer.plastic_rate(y) - 1.0 + drive.tolerance * (1.0 / layer.modulus).min(1.0)
+        })?;
         Ok(Held { force: area * self.0.layer_stress * end.y[0], evaluations })
     }
 
@@ -76,29 +76,6 @@ impl<'a> LemaitreCarlson<'a> {
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.0.initial_disorder]), layer.control(drive));
         let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(f64::MAX, |_, y| Ok(event(&layer, y)))?;
         Ok((end, march.evaluations()))
-    }
-
-    /// Returns the stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances
-    /// plastic work, chi = kappa/ln(E1/(alpha sig gam')), inserted in gam' = V/(2h). If work exceeds ageing, chi grows
-    /// without bound and exp(-1/chi) is one.
-    ///
-    /// # Errors
-    /// [`Failure::VelocityZero`] at rest.
-    pub fn steady_stress(&self, velocity: f64) -> Result<f64, Failure> {
-        if velocity == 0.0 {
-            return Err(Failure::VelocityZero);
-        }
-        let rate = velocity / (2.0 * self.0.layer_half_thickness);
-        // In logarithms, increasing in sig: ln sinh(sig/mubar) + ln(E0/rate) - 1/chi.
-        let balance = |s: f64| {
-            let disorder = self.0.disorder_gain * self.0.layer_stress * s * rate / self.0.ageing_rate;
-            let barrier = (-libm::log(disorder) / self.0.ageing_barrier).max(0.0);
-            let ln_sinh = s + libm::log(-libm::expm1(-2.0 * s)) - std::f64::consts::LN_2;
-            Ok(ln_sinh + libm::log(self.0.rearrangement_rate / rate) - barrier)
-        };
-        let (low, high) = (f64::MIN_POSITIVE, 1e6);
-        let s = root::between(Point { x: low, y: balance(low)? }, Point { x: high, y: balance(high)? }, balance)?;
-        Ok(s * self.0.layer_stress)
     }
 }
 

@@ -29,7 +29,6 @@ impl Stribeck<'_> {
         // F'(v) = F_v - drop/v_s steepness(v/v_s): it rises until the steepness reaches this threshold.
         let threshold = self.0.viscous_friction * self.0.stribeck_velocity / drop;
         let d = self.0.stribeck_exponent;
-        let steepness = |u: f64| d * libm::pow(u, d - 1.0) * libm::exp(-libm::pow(u, d));
         let steepest = if d > 1.0 { libm::pow((d - 1.0) / d, 1.0 / d) } else { 0.0 };
         let end = (velocity / self.0.stribeck_velocity).min(steepest);
         if d <= 1.0 {
@@ -38,7 +37,7 @@ impl Stribeck<'_> {
             let falls = at_rest > threshold;
             return Ok(if falls { self.force(load, 0.0) } else { self.force(load, velocity) });
         }
-        let margin = |u: f64| Ok(steepness(u) - threshold);
+        let margin = |u: f64| Ok(d * libm::pow(u, d - 1.0) * libm::exp(-libm::pow(u, d)) - threshold);
         if margin(end)? <= 0.0 {
             return Ok(self.force(load, velocity));
         }

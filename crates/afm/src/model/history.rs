@@ -93,12 +93,12 @@ impl Histories {
     /// Creates the histories of a model with `first` other outputs.
     pub fn new(which: &[AfmHistory], moments: &AfmMoments, first: usize) -> Self {
         let times = moments.times().to_vec();
-        let series = |(number, history): (usize, &AfmHistory)| OutputSeries {
+        let series = which.iter().enumerate().map(|(number, history)| OutputSeries {
             name: history.name().to_owned(),
             first: first + number * times.len(),
             axis: moments.axis.clone(),
-        };
-        let series = which.iter().enumerate().map(series).collect();
+        });
+        let series = series.collect();
         Self { which: which.to_vec(), times, series }
     }
 

@@ -14,10 +14,9 @@ impl<const N: usize> Factors<N> {
             std::array::from_fn(|i| matrix[i].iter().fold(0.0_f64, |largest, value| largest.max(value.abs())));
         let mut rows: [usize; N] = std::array::from_fn(|i| i);
         for column in 0..N {
-            let weight = |row: usize| matrix[row][column].abs() / weights[row];
             let mut pivot = column;
             for row in column + 1..N {
-                if weight(row) > weight(pivot) {
+                if matrix[row][column].abs() / weights[row] > matrix[pivot][column].abs() / weights[pivot] {
                     pivot = row;
                 }
             }

@@ -154,8 +154,8 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     let path = &*arguments.data;
     let mut reader = open_table(path, &arguments.table.options(&[])).in_file(path)?;
     let problem = problem(&arguments.salib)?;
-    let known = problem.as_ref().map(|problem| problem.inputs.clone());
-    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).in_file(path)?;
+    let input_names = problem.as_ref().map(|problem| problem.inputs.clone());
+    let (inputs, outputs) = columns(reader.as_ref(), input_names, &arguments.outputs).in_file(path)?;
     let problem = match problem {
         Some(problem) => problem,
         None => SalibProblem::of_inputs(inputs.iter().map(|(_, name)| name.clone()).collect()).in_file(path)?,
@@ -164,7 +164,9 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
     while reader.read(&wanted, 1 << 13, &mut part).in_file(path)? > 0 {
-        all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
+        for (all, part) in all.iter_mut().zip(&part) {
+            all.extend_from_slice(part);
+        }
     }
     say_of_table(path, &[], reader.is_unended());
     let values = all.split_off(inputs.len());
@@ -177,17 +179,18 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
         }
     }
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
-    let asked = match (second_order, first_order_only) {
+    let stated_layout = match (second_order, first_order_only) {
         (true, _) => Some(SalibLayout::SecondOrder),
         (_, true) => Some(SalibLayout::FirstOrder),
         _ => None,
     };
     // None if the file does not hold the inputs.
     let points = Some(&*inputs).filter(|inputs| !inputs.is_empty());
-    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).map_err(|error| match error {
-        SalibError::Ambiguous { .. } => format!("{error}: choose one by --second-order or --first-order-only"),
-        SalibError::Invalid(problem) => problem,
-    });
+    let layout =
+        recognise(outputs[0].values.len(), &problem.members, stated_layout, points).map_err(|error| match error {
+            SalibError::Ambiguous { .. } => format!("{error}: choose one by --second-order or --first-order-only"),
+            SalibError::Invalid(problem) => problem,
+        });
     let layout = layout.in_file(path)?;
     match points {
         Some(_) => say("the points in the file have the layout of SALib"),
@@ -235,20 +238,18 @@ fn columns(
         let inputs = inputs.into_iter().take(first).enumerate().collect();
         return Ok((inputs, (first..).zip(outputs.iter().cloned()).collect()));
     };
-    let is_input = |name: &str| inputs.iter().flatten().any(|input| input == name);
-    let asked: Vec<String> = match (outputs, &inputs) {
-        ([], Some(_)) => names.iter().filter(|name| !is_input(name)).cloned().collect(),
+    let output_names: Vec<String> = match (outputs, &inputs) {
+        ([], Some(inputs)) => names.iter().filter(|name| !inputs.contains(name)).cloned().collect(),
         ([], None) => {
             anyhow::bail!("the outputs are unknown: name them (--outputs), or the inputs (--names, --problem)")
         }
-        (asked, _) => asked.to_vec(),
+        (outputs, _) => outputs.to_vec(),
     };
-    let outputs = output_columns(names, &asked, &is_input)?;
-    let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !asked.contains(name)).cloned().collect());
+    let outputs = output_columns(names, &output_names, &|name| inputs.iter().flatten().any(|input| input == name))?;
+    let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !output_names.contains(name)).cloned().collect());
     if inputs.is_empty() {
         anyhow::bail!("the file has only outputs: name the inputs, to give their number (--names, --problem)");
     }
-    let place = |name: &String| Some((names.iter().position(|known| known == name)?, name.clone()));
-    let there: Option<Places> = inputs.iter().map(place).collect();
-    Ok((there.unwrap_or_default(), outputs))
+    let places = inputs.iter().map(|name| Some((names.iter().position(|other| other == name)?, name.clone())));
+    Ok((places.collect::<Option<Places>>().unwrap_or_default(), outputs))
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::design::Design;
 use apportion::estimate::{FirstOrder, Total};
-use apportion::model::{Output, RunContext};
+use apportion::model::RunContext;
 use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, IndicesOf};
@@ -59,9 +59,8 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
 
 fn subject(study: &Study) -> String {
     let model_name = study.subject().name();
-    let after_colon = |text: &str| format!(": {text}");
-    let title = study.title().map(after_colon).unwrap_or_default();
-    let about = ModelKind::from_name(model_name).map(|kind| after_colon(kind.description)).unwrap_or_default();
+    let title = study.title().map(|title| format!(": {title}")).unwrap_or_default();
+    let about = ModelKind::from_name(model_name).map(|kind| format!(": {}", kind.description)).unwrap_or_default();
     let mut text = format!("study {}{title}\nmodel {model_name}{about}\n", study.name());
     if model_name == ModelKind::COMMAND.name {
         let files = study.subject().files();
@@ -77,19 +76,18 @@ fn subject(study: &Study) -> String {
         }
     }
     let model = study.model();
-    // A series is listed at its first value.
-    let output = |(place, output): (usize, &Output)| {
-        let series = model.series().iter().find(|series| series.places().contains(&place));
-        match series {
+    let mut outputs = Vec::new();
+    for (place, output) in model.outputs().iter().enumerate() {
+        match model.series().iter().find(|series| series.places().contains(&place)) {
+            // A series is listed at its first value.
             Some(series) if series.first == place => {
                 let (values, axis) = (series.places().len(), series.axis.label());
-                Some(format!("{} [{}] ({values} values along {axis})", series.name, output.unit))
+                outputs.push(format!("{} [{}] ({values} values along {axis})", series.name, output.unit));
             }
-            Some(_) => None,
-            None => Some(format!("{} [{}]", output.name, output.unit)),
+            Some(_) => (),
+            None => outputs.push(format!("{} [{}]", output.name, output.unit)),
         }
-    };
-    let outputs: Vec<String> = model.outputs().iter().enumerate().filter_map(output).collect();
+    }
     text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
     let constants = study.constants().into_iter();
     let constants: Vec<String> =
@@ -121,10 +119,12 @@ fn factors(study: &Study) -> String {
     let mut below = String::new();
     for factor in study.space().factors() {
         let law = factor.distribution();
-        let quantile = |u| if law.is_noise() { "-".to_owned() } else { factor.in_words(law.quantile(u), significant) };
+        let [low, median, high] = [0.05, 0.5, 0.95]
+            .map(|u| if law.is_noise() { "-".to_owned() } else { factor.in_words(law.quantile(u), significant) });
         // The positions of categories in their list have no mean.
         let is_place = matches!(law, Distribution::Categorical(c) if law.name() == "categorical" && c.are_places());
-        let moment = |value| if is_place || law.is_noise() { "-".to_owned() } else { significant(value) };
+        let [mean, sd] = [law.mean(), law.sd()]
+            .map(|moment| if is_place || law.is_noise() { "-".to_owned() } else { significant(moment) });
         if let Distribution::Categorical(categories) = law {
             let shares: Vec<String> = categories
                 .categories()
@@ -146,11 +146,11 @@ fn factors(study: &Study) -> String {
         table.add_row([
             factor.name.clone(),
             law.name().to_owned(),
-            moment(law.mean()),
-            moment(law.sd()),
-            quantile(0.05),
-            quantile(0.5),
-            quantile(0.95),
+            mean,
+            sd,
+            low,
+            median,
+            high,
             factor.in_words(factor.nominal, significant),
             factor.unit().to_string(),
             factor.group.clone().unwrap_or_default(),
@@ -176,7 +176,7 @@ fn past_runs(study: &Study, folder: &Path) -> String {
     text
 }
 
-/// The rows of the design, what is asked of them, and what they cost by the first runs.
+/// The rows of the design, what is estimated from them, and what they cost by the first runs.
 fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     let design = study.design();
     let settings = design.settings();
@@ -196,7 +196,7 @@ fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
         let measure = dependence.measure_in_force().name();
         lines.push(format!("dependent: {} (correlations: {measure})", dependence.factors().join(", ")));
     }
-    lines.push(format!("asked: {}", asked(study).join(", ")));
+    lines.push(format!("asked: {}", estimated(study).join(", ")));
     let has_ba = design.has_ba();
     lines.push(format!(
         "estimators: first order {}, total {}",
@@ -263,10 +263,8 @@ fn pilot_warnings(study: &Study, pilot: &Pilot) -> Vec<String> {
 }
 
 /// What is estimated.
-fn asked(study: &Study) -> Vec<String> {
+fn estimated(study: &Study) -> Vec<String> {
     let (analysis, space) = (study.analysis(), study.space());
-    let several = |number: usize, what: &str| (number > 0).then(|| counted(number as u64, what));
-    let names = |what: &str, names: Vec<&str>| (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")));
     let of = match analysis.indices_of {
         IndicesOf::Factors => "the factors",
         IndicesOf::Groups => "the groups, and of the factors without one",
@@ -278,28 +276,38 @@ fn asked(study: &Study) -> Vec<String> {
         analysis.dummy.then(|| "a dummy factor".to_owned()),
         analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())),
         analysis.has_shapley(space).then(|| "Shapley effects".to_owned()),
-        names("measures", analysis.measures.iter().map(|measure| measure.name()).collect()),
+        names("measures", analysis.measures.iter().map(|measure| measure.name())),
         space.noise().map(|noise| format!("the noise ({}) and the mean over it", space.factors()[noise].name)),
         (analysis.aggregate && study.model().outputs().len() > 1).then(|| "all outputs together".to_owned()),
-        names("other estimators", analysis.estimators.iter().map(|estimator| estimator.name()).collect()),
+        names("other estimators", analysis.estimators.iter().map(|estimator| estimator.name())),
         study.uses_surrogate(study.design()).then(|| "correction by surrogates".to_owned()),
-        names("cheaper models", study.low_fidelities().iter().map(|low| low.name.as_str()).collect()),
+        names("cheaper models", study.low_fidelities().iter().map(|low| low.name.as_str())),
     ];
     parts.into_iter().flatten().collect()
+}
+
+fn several(number: usize, what: &str) -> Option<String> {
+    (number > 0).then(|| counted(number as u64, what))
+}
+
+/// Lists names after `what`; `None` without names.
+fn names<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+    let names: Vec<&str> = names.collect();
+    (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")))
 }
 
 /// Which rows every base sample has.
 fn rows(study: &Study) -> Vec<String> {
     let design = study.design();
     let swaps = design.swaps().len() as u64;
-    let row = |number: u64, what: &str| (number > 0).then(|| format!("{} {what}", counted(number, "row")));
-    let parts = [
-        Some("A and B".to_owned()),
-        row(swaps, "AB"),
-        row(if design.has_ba() { swaps } else { 0 }, "BA"),
-        row(design.plain_rows().into(), "only for surrogates"),
-    ];
-    parts.into_iter().flatten().collect()
+    let ba = if design.has_ba() { swaps } else { 0 };
+    let mut rows = vec!["A and B".to_owned()];
+    for (number, kind) in [(swaps, "AB"), (ba, "BA"), (design.plain_rows().into(), "only for surrogates")] {
+        if number > 0 {
+            rows.push(format!("{} {kind}", counted(number, "row")));
+        }
+    }
+    rows
 }
 
 /// How a growing run goes on and when it ends.

@@ -1,4 +1,4 @@
-//! `apportion evaluate`: the model at the user's own points.
+//! `apportion evaluate`: the model at points of the user.
 
 use std::path::PathBuf;
 
@@ -71,15 +71,15 @@ pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
 fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
     say_of_table(&arguments.points, &evaluated.skipped, evaluated.unended);
     if !evaluated.nominal.is_empty() {
-        let value = |&number: &usize| {
+        let values = evaluated.nominal.iter().map(|&number| {
             let factor = &space.factors()[number];
             let unit = match factor.unit().symbol() {
                 "" | "1" => String::new(),
                 symbol => format!(" {symbol}"),
             };
             format!("{} = {}{unit}", factor.name, factor.in_words(factor.nominal, significant))
-        };
-        let values: Vec<String> = evaluated.nominal.iter().map(value).collect();
+        });
+        let values: Vec<String> = values.collect();
         let points = arguments.points.display();
         say(&format!("note: {points}: factors without a column are at their nominal values: {}", values.join(", ")));
     }

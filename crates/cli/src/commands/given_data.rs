@@ -69,10 +69,12 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(path, &names, rows.is_unended());
     let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
-    let known = study.as_ref().filter(|_| arguments.surrogate);
-    let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
-    let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
-    let surrogates = arguments.surrogate.then(fit);
+    let surrogates = if arguments.surrogate {
+        let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
+        Some(surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref()))
+    } else {
+        None
+    };
     let name = stem(path);
     let artefacts = arguments.output.artefacts(&name).next_to_input(path);
     let facts = GivenFacts {
@@ -90,16 +92,18 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
 
 /// The distributions that the study has for the `inputs`.
 fn distributions(study: &Study, inputs: &[Column]) -> anyhow::Result<Vec<Distribution>> {
-    let of_input = |input: &Column| {
-        let factor = study.space().factors().iter().find(|factor| factor.name == input.name);
-        factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
-            let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
-            bad_input(format!(
+    let factors = study.space().factors();
+    let mut distributions = Vec::new();
+    for input in inputs {
+        let Some(factor) = factors.iter().find(|factor| factor.name == input.name) else {
+            let names: Vec<&str> = factors.iter().map(|factor| factor.name.as_str()).collect();
+            return Err(bad_input(format!(
                 "--study: the input `{}` is not a factor of the study; its factors are {}; choose the inputs with --inputs",
                 input.name,
-                known.join(", ")
-            ))
-        })
-    };
-    inputs.iter().map(of_input).collect()
+                names.join(", ")
+            )));
+        };
+        distributions.push(factor.distribution().clone());
+    }
+    Ok(distributions)
 }

@@ -56,16 +56,16 @@ pub fn merge(arguments: &Arguments) -> anyhow::Result<()> {
 /// The journals of shards in `folder`, in the order of their names.
 fn in_folder(folder: &Path, name: &str) -> anyhow::Result<Vec<PathBuf>> {
     let begin = format!("{name}-shard-");
-    let is_part = |path: &PathBuf| {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut journals: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    journals.retain(|path| {
         let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
         file.starts_with(&begin) && file.ends_with(".journal")
-    };
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut found: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_part).collect();
-    found.sort();
-    if found.is_empty() {
+    });
+    journals.sort();
+    if journals.is_empty() {
         let what = format!("found no {begin}I-of-N.journal: `apportion run STUDY --shard I/N` writes these files");
         return Err(bad_input(format!("{}: {what}", folder.display())));
     }
-    Ok(found)
+    Ok(journals)
 }

@@ -183,16 +183,16 @@ fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
 
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
-    stop::hear_of_size_limits();
+    stop::ignore_sigxfsz();
     #[cfg(feature = "mpi")]
     if let Some((size, _)) = ranks::job() {
-        return ranks::mpi::main(size, |others| command_line(Some(others)));
+        return ranks::mpi::main(size, |mpi_ranks| command_line(Some(mpi_ranks)));
     }
     command_line(None)
 }
 
-/// Parses the command line and runs the command, with `others` as the other ranks of an MPI job.
-fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
+/// Parses the command line and runs the command, with `mpi_ranks` as the other ranks of an MPI job.
+fn command_line(mpi_ranks: Option<&dyn Ranks>) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
@@ -204,7 +204,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
     exit_code(match cli.command {
         Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
-        Command::Run(arguments) => run::run(&arguments, others),
+        Command::Run(arguments) => run::run(&arguments, mpi_ranks),
         Command::Merge(arguments) => merge::merge(&arguments),
         Command::Sample(arguments) => sample::sample(&arguments),
         Command::Analyze(arguments) => analyze::analyze(&arguments),
@@ -244,8 +244,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 
 /// A path or an argument as it is typed in a shell.
 fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
+    if !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || "/._-+,:@%=".contains(c)) {
         text.to_owned()
     } else {
         format!("'{}'", text.replace('\'', r"'\''"))
@@ -254,8 +253,9 @@ fn quoted(text: &str) -> String {
 
 /// Writes what the program itself has made, for other programs, to standard output.
 fn print_raw(bytes: &[u8]) -> anyhow::Result<()> {
-    let unprinted = |error: Error| Error::new(error.kind(), format!("cannot write to standard output: {error}"));
-    Ok(std::io::stdout().write_all(bytes).map_err(unprinted)?)
+    std::io::stdout()
+        .write_all(bytes)
+        .map_err(|error| Error::new(error.kind(), format!("cannot write to standard output: {error}")).into())
 }
 
 /// Writes `text` to standard output without panicking when its reader is gone.
@@ -268,7 +268,7 @@ fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
-/// A text without characters that would change the terminal: names and titles are the user's, or somebody else's.
+/// A text without characters that would change the terminal: names and titles are untrusted input.
 fn printable(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() && c != '\n' && c != '\t' { char::REPLACEMENT_CHARACTER } else { c })

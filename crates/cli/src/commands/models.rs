@@ -1,7 +1,7 @@
 //! `apportion models`: lists the models.
 
 use apportion::estimate::{Estimator, FirstOrder, Total};
-use apportion::model::{Basis, Exact, Input, KnownAnswer, KnownFunction, known_inputs};
+use apportion::model::{Basis, Choice, Exact, Input, KnownAnswer, KnownFunction, known_inputs};
 use apportion::study::nearest;
 use apportion_files::{ModelKind, Problem, model_guide};
 use apportion_report::{significant, table};
@@ -94,8 +94,9 @@ fn list() -> String {
 
 fn inputs_and_outputs(kind: ModelKind) -> String {
     let mut text = format!("{}: {}\n\n", kind.name, kind.description);
-    for (key, names) in kind.choices() {
-        text.push_str(&format!("  {key}: {}\n", names.join(", ")));
+    for Choice { key, scope, values } in kind.choices() {
+        let scope = if scope.is_empty() { String::new() } else { format!(" ({scope})") };
+        text.push_str(&format!("  {key}{scope}: {}\n", values.join(", ")));
     }
     let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
     for input in kind.inputs() {

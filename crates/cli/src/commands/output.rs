@@ -51,8 +51,10 @@ impl OutputArguments {
 
 fn chart_format(name: &str) -> Result<Option<ChartFormat>, String> {
     let format = ChartFormat::ALL.into_iter().find(|format| format.name() == name.trim());
-    let wrong = || "expected svg, png and pdf, separated by commas, or none".to_owned();
-    if name == "none" { Ok(None) } else { format.map(Some).ok_or_else(wrong) }
+    match format {
+        None if name != "none" => Err("expected svg, png and pdf, separated by commas, or none".to_owned()),
+        format => Ok(format),
+    }
 }
 
 impl ChartArguments {
@@ -79,8 +81,8 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()>
     let written = artefacts.write_until(document, on_signal())?;
     print(&document.text())?;
     // A page to try other ranges in, and not an animation.
-    let is_live = |path: &Path| path.to_string_lossy().ends_with("live.html");
-    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
+    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        written.data.iter().partition(|path| path.to_string_lossy().ends_with("live.html"));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
     let live: String = names.map(|name| format!(", and the interactive page {name}")).collect();
     say(&format!("wrote {}{live}", written.page.display()));

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::result::{ReadError, ReadProblem, parse_result};
+use apportion::result::{ReadError, parse_result};
 use apportion_base::files::read_whole;
 use apportion_report::run_document;
 
@@ -26,9 +26,8 @@ pub struct Arguments {
 
 pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &arguments.result;
-    let wrong = |problem: ReadProblem| ReadError { path: path.clone(), problem };
-    let bytes = read_whole(path).map_err(|error| wrong(error.into()))?;
-    let result = parse_result(&bytes).map_err(wrong)?;
+    let bytes = read_whole(path).map_err(|error| ReadError { path: path.clone(), problem: error.into() })?;
+    let result = parse_result(&bytes).map_err(|problem| ReadError { path: path.clone(), problem })?;
     let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = arguments.out.as_deref().unwrap_or(beside);
     let mut document = run_document(&result);

@@ -7,10 +7,10 @@ use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Threads};
-use crate::reproduce::claims::claims;
-use crate::reproduce::figures::{coulomb, figures};
-use crate::reproduce::percentages::percentages;
-use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, general_study, studies};
+use apportion_papers::reproduce::claims::claims;
+use apportion_papers::reproduce::figures::{coulomb, figures};
+use apportion_papers::reproduce::percentages::percentages;
+use apportion_papers::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, general_study, studies};
 
 /// The file of the live page.
 const LIVE: &str = "live.html";

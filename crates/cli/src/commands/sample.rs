@@ -38,24 +38,24 @@ pub struct Arguments {
 pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     let kind = if arguments.random.is_some() { "random" } else { "design" };
-    let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
-    let path = arguments.output.clone().unwrap_or_else(default);
+    let default = PathBuf::from(format!("{}-{kind}.csv", study.name()));
+    let path = arguments.output.clone().unwrap_or(default);
     let format = Format::from_path(&path).in_file(&path)?;
-    let beside = Manifest::path_for(&path);
-    if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
+    let manifest_path = Manifest::path_for(&path);
+    if !arguments.force && path.is_file() && !is_design_of(&path, study.name()) {
         let what = "exists already, and is not a design that `sample` wrote of this study";
         return Err(bad_input(format!("{} {what}: give another name, or add --force", path.display())));
     }
     prepare_file(&path)?;
-    prepare_file(&beside)?;
+    prepare_file(&manifest_path)?;
     if arguments.random.is_none() && study.target().grows() {
         say("note: a run of this study adds points until its target is met: these are its first points");
     }
     // A manifest of other points must not stay after they are replaced.
-    if let Err(error) = std::fs::remove_file(&beside)
+    if let Err(error) = std::fs::remove_file(&manifest_path)
         && error.kind() != std::io::ErrorKind::NotFound
     {
-        return Err(anyhow!("cannot replace {}: {error}", beside.display()));
+        return Err(anyhow!("cannot replace {}: {error}", manifest_path.display()));
     }
     let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {
@@ -66,16 +66,16 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let file = &arguments.study.study;
     let manifest = stream_atomically(&path, |out| write_sample(&study, file, format, &mut Stoppable::new(out)))?;
-    write_atomically(&beside, manifest.json().as_bytes())?;
+    write_atomically(&manifest_path, manifest.json().as_bytes())?;
     let rows = study.design().rows();
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
-    say(&format!("wrote {}", beside.display()));
+    say(&format!("wrote {}", manifest_path.display()));
     Ok(())
 }
 
 /// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest next to it says so, and no
 /// outputs have been put in.
-fn is_own(path: &Path, name: &str) -> bool {
+fn is_design_of(path: &Path, name: &str) -> bool {
     let manifest = read_text(&Manifest::path_for(path)).ok().and_then(|text| Manifest::parse(&text).ok());
     let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
     manifest.zip(width.ok()).is_some_and(|(manifest, width)| manifest.describes(name, width))

@@ -58,8 +58,8 @@ pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
     let settings = arguments.settings(&study)?;
     let (in_force, _) = settings.in_force(study.space().factors().len())?;
     if in_force.trajectories != settings.trajectories {
-        let (asked, used) = (settings.trajectories, in_force.trajectories);
-        say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
+        let (requested, used) = (settings.trajectories, in_force.trajectories);
+        say(&format!("note: {requested} trajectories do not make equal parts for the intervals: {used} are used"));
     }
     let model = study.model();
     let artefacts = arguments.output.prepared(study.name())?;

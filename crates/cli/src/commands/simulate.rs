@@ -4,8 +4,8 @@ use apportion_base::quantity::{Dimension, Quantity};
 
 use super::StudyArguments;
 use super::output::{OutputArguments, deliver};
-use crate::scene::simulation::{mode_diagram, simulate as simulate_scene};
-use crate::scene::{mode_document, scene_document};
+use apportion_papers::scene::simulation::{mode_diagram, simulate as simulate_scene};
+use apportion_papers::scene::{mode_document, scene_document};
 
 #[derive(clap::Args)]
 pub struct Arguments {

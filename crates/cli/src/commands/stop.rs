@@ -10,20 +10,20 @@ static STOP: AtomicBool = AtomicBool::new(false);
 pub fn on_signal() -> &'static AtomicBool {
     static INSTALLED: OnceLock<()> = OnceLock::new();
     INSTALLED.get_or_init(|| {
-        let handler = || {
+        let installed = ctrlc::set_handler(|| {
             if STOP.swap(true, Ordering::SeqCst) {
                 std::process::exit(1);
             }
             super::say("stopping after the runs in progress (press Ctrl-C again to stop at once)");
-        };
-        if let Err(error) = ctrlc::set_handler(handler) {
+        });
+        if let Err(error) = installed {
             super::say(&format!("warning: Ctrl-C will stop the program at once: {error}"));
         }
     });
     &STOP
 }
 
-/// From now on signals are left to another process, which hears them too and tells this one.
+/// Ignores signals: another process, which gets them too, stops this one.
 #[cfg(feature = "mpi")]
 pub fn leave_to_another() {
     if let Err(error) = ctrlc::set_handler(|| ()) {
@@ -31,9 +31,8 @@ pub fn leave_to_another() {
     }
 }
 
-/// Lets a write beyond the limit of file sizes (`ulimit -f`) fail with its reason, as any other that fails: by default the
-/// system ends the program without a word.
-pub fn hear_of_size_limits() {
+/// Lets a write beyond the limit of file sizes (`ulimit -f`) return an error: by default the system kills the program.
+pub fn ignore_sigxfsz() {
     // SAFETY: no handler is installed; the call only changes the system's action on a signal.
     #[cfg(unix)]
     #[allow(unsafe_code)]

@@ -83,8 +83,8 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
 
 /// What becomes of the study at its extremes.
 fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
-    let own = ExtremesJob::new(study);
-    let (points, seed) = (arguments.cells.unwrap_or(own.points), arguments.seed.unwrap_or(own.seed));
+    let default = ExtremesJob::new(study);
+    let (points, seed) = (arguments.cells.unwrap_or(default.points), arguments.seed.unwrap_or(default.seed));
     let meter = Meter::new(study.name(), points);
     let start = Instant::now();
     let job = ExtremesJob {
@@ -94,7 +94,7 @@ fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
         stop: Some(on_signal()),
         on_message: say,
         on_progress: &|progress| meter.update(progress),
-        ..own
+        ..default
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());

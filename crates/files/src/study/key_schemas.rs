@@ -11,8 +11,7 @@ use crate::ModelKind;
 
 /// Returns the choices of `[afm]`, each with its possible names.
 pub(super) fn afm_choices() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
-    // The key is followed by its scope.
-    ModelKind::AFM.choices().into_iter().map(|(key, names)| (key.split(' ').next().unwrap_or(key), names))
+    ModelKind::AFM.choices().into_iter().map(|choice| (choice.key, choice.values))
 }
 
 /// Returns the schema of the low-fidelity models.

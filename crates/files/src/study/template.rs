@@ -1,7 +1,7 @@
 //! A new study file, which runs unchanged and has explanatory comments.
 
 use apportion::design::DesignSettings;
-use apportion::model::{Input, Output};
+use apportion::model::{Choice, Input, Output};
 use apportion_afm::Options;
 use apportion_base::text::capitalised;
 
@@ -154,14 +154,14 @@ fn quoted_names(outputs: &[&Output]) -> String {
 fn afm_table() -> String {
     let options = Options::default();
     let mut text = "\n# The physics. Each choice is the default.\n[afm]\n".to_owned();
-    for (key, names) in ModelKind::AFM.choices() {
+    for Choice { key, values, .. } in ModelKind::AFM.choices() {
         let in_force = match key {
             "friction" => options.friction.name(),
             "contact" => options.contact.name(),
             "fidelity" => options.fidelity.name(),
             _ => continue,
         };
-        text.push_str(&format!("{key} = \"{in_force}\"    # {}\n", names.join(", ")));
+        text.push_str(&format!("{key} = \"{in_force}\"    # {}\n", values.join(", ")));
     }
     text + "# An input that is not a factor can be fixed, with its unit:\n# width = \"40 um\"\n"
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::properties::within_ranges;
 use super::*;
 use crate::force::motion::Motion;
-use crate::force::quasi_static::Statics;
+use crate::force::statics::Statics;
 use crate::force::substrate::Substrate;
 use crate::friction::LuGreForm;
 use crate::ode::{Control, DormandPrince, March, Outcome, Problem};

@@ -40,3 +40,14 @@ fn the_limits_of_the_loading() {
     assert!((at(f64::MAX) / 3e-7 - 1.0).abs() < 1e-15);
     assert_eq!(Armstrong(&Scene::default()).break_away(0.0, 1.0), 0.0);
 }
+
+impl Armstrong<'_> {
+    /// Returns the friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one
+    /// lag ago and `dwell` (s) the rest before it slid.
+    pub fn sliding_force(&self, load: f64, velocity: f64, lagged: f64, dwell: f64) -> f64 {
+        let coulomb = self.0.dynamic_friction * load;
+        let ratio = lagged / self.0.stribeck_velocity;
+        let excess = self.static_force(load, dwell) - coulomb;
+        coulomb + excess / (1.0 + ratio * ratio) + self.0.viscous_friction * velocity
+    }
+}

@@ -1,5 +1,6 @@
 use super::*;
 use crate::ode::assert_jacobian;
+use crate::root::{self, Point};
 
 const PRESSED: Pressed = Pressed { load: 4.9e-7, radius: 9.09e-9 };
 
@@ -64,4 +65,29 @@ fn a_layer_at_rest_has_no_break_away_force() {
 fn the_jacobian_is_the_derivative() {
     let scene = Scene::default();
     assert_jacobian(&LemaitreCarlson(&scene).sheared(2.6e-16, 1e-7, 30.0), [2.5, 0.11], 1e-6);
+}
+
+impl LemaitreCarlson<'_> {
+    /// Returns the stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances
+    /// plastic work, chi = kappa/ln(E1/(alpha sig gam')), inserted in gam' = V/(2h). If work exceeds ageing, chi grows
+    /// without bound and exp(-1/chi) is one.
+    ///
+    /// # Errors
+    /// [`Failure::VelocityZero`] at rest.
+    pub fn steady_stress(&self, velocity: f64) -> Result<f64, Failure> {
+        if velocity == 0.0 {
+            return Err(Failure::VelocityZero);
+        }
+        let rate = velocity / (2.0 * self.0.layer_half_thickness);
+        // In logarithms, increasing in sig: ln sinh(sig/mubar) + ln(E0/rate) - 1/chi.
+        let balance = |s: f64| {
+            let disorder = self.0.disorder_gain * self.0.layer_stress * s * rate / self.0.ageing_rate;
+            let barrier = (-libm::log(disorder) / self.0.ageing_barrier).max(0.0);
+            let ln_sinh = s + libm::log(-libm::expm1(-2.0 * s)) - std::f64::consts::LN_2;
+            Ok(ln_sinh + libm::log(self.0.rearrangement_rate / rate) - barrier)
+        };
+        let (low, high) = (f64::MIN_POSITIVE, 1e6);
+        let s = root::between(Point { x: low, y: balance(low)? }, Point { x: high, y: balance(high)? }, balance)?;
+        Ok(s * self.0.layer_stress)
+    }
 }

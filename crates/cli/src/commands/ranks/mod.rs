@@ -29,12 +29,14 @@ const VARIABLES: [(&str, &str); 4] = [
 
 /// The number of ranks of the MPI job in which this process was started, if there are more than one, and its own.
 pub fn job() -> Option<(usize, usize)> {
-    let number = |name: &str| std::env::var(name).ok()?.trim().parse::<usize>().ok();
     if std::env::var(SWITCH).is_ok_and(|switch| switch == "off") {
         return None;
     }
-    let found = VARIABLES.iter().find_map(|(size, rank)| Some((number(size)?, number(rank)?)));
-    found.filter(|(size, _)| *size > 1)
+    let job = VARIABLES.iter().find_map(|&(size, rank)| {
+        let [size, rank] = [size, rank].map(|name| std::env::var(name).ok()?.trim().parse::<usize>().ok());
+        Some((size?, rank?))
+    });
+    job.filter(|(size, _)| *size > 1)
 }
 
 /// Refuses to run a study once on every rank, all at the same files.

@@ -135,7 +135,7 @@ impl Ranks for Others {
     }
 }
 
-/// Rank 0: the command in a thread of its own, the messages in this one.
+/// Rank 0: the command in a separate thread, the messages in this one.
 fn lead(world: &SimpleCommunicator, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) -> ExitCode {
     let (letters, outbox) = mpsc::channel();
     let size = world.size() as usize;
@@ -177,8 +177,8 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
             Err(RecvTimeoutError::Timeout) => pause = (2 * pause).min(LONG),
             Err(RecvTimeoutError::Disconnected) => break,
         }
-        while let Some(found) = world.any_process().immediate_matched_probe() {
-            let (bytes, status) = found.matched_receive_vec::<u8>();
+        while let Some(message) = world.any_process().immediate_matched_probe() {
+            let (bytes, status) = message.matched_receive_vec::<u8>();
             (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
             let worker = (status.source_rank() as usize - 1) * per_rank + status.tag() as usize;
             // A run that has ended receives no more messages.
@@ -281,8 +281,8 @@ fn serve(world: &SimpleCommunicator, study: &WorkerStudy, threads: usize) {
         let mut pause = SHORT;
         let first = world.process_at_rank(0);
         loop {
-            while let Some(found) = first.immediate_matched_probe() {
-                let (bytes, status) = found.matched_receive_vec::<u8>();
+            while let Some(message) = first.immediate_matched_probe() {
+                let (bytes, status) = message.matched_receive_vec::<u8>();
                 match status.tag() {
                     // The workers end when their queues are closed.
                     END => return drop(queues),

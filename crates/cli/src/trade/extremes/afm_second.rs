@@ -61,49 +61,52 @@ impl AfmSecond {
         error_estimate: Option<f64>,
     ) -> Vec<Result<Reference, Unchecked>> {
         let mut scene = self.scene;
-        self.factors.iter().zip(x).for_each(|(parameter, &value)| (parameter.set)(&mut scene, value));
+        for (parameter, &value) in self.factors.iter().zip(x) {
+            (parameter.set)(&mut scene, value);
+        }
         // The outputs of a rung share one error estimate, which includes that of the time.
         let shared = Options { step_budget: self.options.step_budget.min(STEPS), accurate_time: true, ..self.options };
         let rungs = self.rungs().iter().map(|&fidelity| critical_force(&scene, &Options { fidelity, ..shared }));
-        let smaller = |one: Result<Critical, Failure>, other: Result<Critical, Failure>| match (&one, &other) {
+        // The one with the smaller stated error.
+        let other = rungs.reduce(|one, other| match (&one, &other) {
             (Ok(first), Ok(second)) if first.error_estimate <= second.error_estimate => one,
             (Ok(_), Err(_)) => one,
             _ => other,
-        };
-        let other = rungs.reduce(smaller).unwrap_or(Err(Failure::StepBudget));
+        });
+        let other = other.unwrap_or(Err(Failure::StepBudget));
         let inputs: Vec<f64> = Parameter::ALL.iter().map(|parameter| (parameter.get)(&scene)).collect();
-        let own_error = error_estimate.unwrap_or(1.0);
+        let model_error = error_estimate.unwrap_or(1.0);
         let outputs = self.which.iter().zip(&self.formulas).zip(values);
         let checked = outputs.map(|((output, formula), value)| {
             let value = value.ok_or_else(|| Unchecked::NotAvailable("the model has no value".to_owned()))?;
             match formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()? {
                 Some(formula) if formula.agrees(value) != Some(true) => Ok(formula),
-                _ => by_rung(*output, (value, own_error), &other),
+                _ => by_rung(*output, (value, model_error), &other),
             }
         });
         checked.collect()
     }
 }
 
-/// Computes an output by another rung, for a model with the value `own` and the stated relative error `own_error`.
+/// Computes an output by another rung, for a model with this value and stated relative error.
 fn by_rung(
     output: AfmOutput,
-    (own, own_error): (f64, f64),
+    (model_value, model_error): (f64, f64),
     other: &Result<Critical, Failure>,
 ) -> Result<Reference, Unchecked> {
     let other = match other {
         Ok(other) => other,
-        // Nothing slips, so the value `own` is not a force, unless its error estimate claims nothing.
-        Err(failure @ (Failure::ProbeTips | Failure::BeyondPullOff)) if own_error < 1.0 => {
+        // Nothing slips, so the value of the model is not a force, unless its error estimate claims nothing.
+        Err(failure @ (Failure::ProbeTips | Failure::BeyondPullOff)) if model_error < 1.0 => {
             return Err(Unchecked::NoValue(failure.to_string()));
         }
         Err(failure) => return Err(Unchecked::NotAvailable(failure.to_string())),
     };
     let value = output.value(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
-    let relative = HIGHER_ORDER * (own_error + other.error_estimate);
-    let absolute = HIGHER_ORDER * (own_error * own.abs() + other.error_estimate * value.abs());
+    let relative = HIGHER_ORDER * (model_error + other.error_estimate);
+    let absolute = HIGHER_ORDER * (model_error * model_value.abs() + other.error_estimate * value.abs());
     let (stated, covered) = match output {
-        _ if own_error >= 1.0 || other.error_estimate >= 1.0 => {
+        _ if model_error >= 1.0 || other.error_estimate >= 1.0 => {
             (Some(f64::INFINITY), "the error estimate is 100 %, so nothing is claimed")
         }
         AfmOutput::CriticalForce | AfmOutput::CriticalTime => (Some(absolute), COVERED),
@@ -171,6 +174,5 @@ fn formula(output: AfmOutput, options: &Options) -> Option<Expression> {
         }
         AfmOutput::CriticalTime | AfmOutput::Indentation => return None,
     };
-    let symbol = |name: &str| Parameter::ALL.iter().position(|p| p.name == name).map(Symbol::Input);
-    Expression::parse(&text, &symbol).ok()
+    Expression::parse(&text, &|name| Parameter::ALL.iter().position(|p| p.name == name).map(Symbol::Input)).ok()
 }

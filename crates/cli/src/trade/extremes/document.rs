@@ -56,8 +56,9 @@ pub fn extremes_document(study: &Study, seed: u64, map: Extremes) -> Document {
         format!("{letter} – {name}: {meaning}.")
     });
     let mut parts: Vec<Part> = vec![counts(map).into(), Part::Text(by), Part::List(meanings.to_vec())];
-    let figure = |grid: &Grid| Figure::unnumbered(chart(headline, grid), format!("{name}-{}", grid.side)).into();
-    parts.extend(map.grids.iter().map(figure));
+    for grid in &map.grids {
+        parts.push(Figure::unnumbered(chart(headline, grid), format!("{name}-{}", grid.side)).into());
+    }
     let reasons = (!map.reasons.is_empty()).then(|| reasons(file).into());
     Report {
         kicker: "A study at its extremes",
@@ -89,6 +90,11 @@ fn mark(outcome: Outcome, count: u64) -> Mark {
     if outcome == Outcome::Wrong && count > 0 { Mark::Bad } else { Mark::Plain }
 }
 
+fn cell(outcome: Outcome, tally: &Tally) -> Cell {
+    let count = tally.count(outcome);
+    Cell::marked(grouped(count), mark(outcome, count))
+}
+
 fn place(kind: Kind) -> &'static str {
     match kind {
         Kind::Corners => "every factor at a bound",
@@ -103,19 +109,13 @@ fn counts(map: &Extremes) -> Table {
         .text("where", |(kind, _)| place(*kind))
         .sum("all");
     for outcome in Outcome::ALL {
-        let cell = |tally: &Tally| Cell::marked(grouped(tally.count(outcome)), mark(outcome, tally.count(outcome)));
-        rows = rows.number(outcome.words().1, |(_, tally)| cell(tally)).sum(cell(&map.counts));
+        rows = rows.number(outcome.words().1, |(_, tally)| cell(outcome, tally)).sum(cell(outcome, &map.counts));
     }
     rows.into()
 }
 
 /// Tabulates why numbers are not right, each reason with its first number.
 fn reasons(file: &ExtremesFile) -> Table {
-    let note = |reason: &Reason| {
-        let numbers = [("", reason.value), (", second calculation ", reason.reference)];
-        let numbers: String = numbers.iter().filter_map(|(what, x)| Some(format!("{what}{}", short((*x)?)))).collect();
-        format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs))
-    };
     let caption = "Reasons for silently wrong, flagged or refused numbers, with the first number of each.";
     let rows = Table::from_rows(caption, &file.map.reasons)
         .text("what", |reason| Cell::marked(reason.outcome.words().1, mark(reason.outcome, reason.count)))
@@ -126,12 +126,19 @@ fn reasons(file: &ExtremesFile) -> Table {
         .named("reason")
         .number("numbers", |reason| grouped(reason.count))
         .value("numbers", |reason| reason.count)
-        .text("first", |reason| Cell { note: note(reason), ..Cell::from(&reason.place) })
+        .text("first", |reason| Cell { note: first_number(reason), ..Cell::from(&reason.place) })
         .named("place")
         .file("output", |reason| &reason.output)
         .file("value", |reason| reason.value)
         .file("reference", |reason| reason.reference);
     Table { on_phone: OnPhone::StackLabelled, ..rows.into() }
+}
+
+/// Describes the first number of a reason.
+fn first_number(reason: &Reason) -> String {
+    let numbers = [("", reason.value), (", second calculation ", reason.reference)];
+    let numbers: String = numbers.iter().filter_map(|(what, x)| Some(format!("{what}{}", short((*x)?)))).collect();
+    format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs))
 }
 
 /// Draws the worst outcome of every cell.
@@ -147,7 +154,7 @@ fn chart(headline: &str, grid: &Grid) -> Chart {
         .collect();
     // The legend is in the order of the marks.
     tiles.sort_by_key(|(outcome, tile)| (*outcome, tile.row, tile.column));
-    let series = |outcome: Outcome| {
+    let tiles = tiles.into_iter().map(|(outcome, tile)| {
         let colour = match outcome {
             Outcome::Right => Colour::Series(2),
             Outcome::Flagged | Outcome::FlaggedConfirmed => Colour::Series(9),
@@ -155,12 +162,11 @@ fn chart(headline: &str, grid: &Grid) -> Chart {
             Outcome::Wrong => Colour::Reference,
         };
         let (letter, name, _) = outcome.words();
-        Series::new(format!("{letter} {name}"), colour)
-    };
+        Series::new(format!("{letter} {name}"), colour).mark(Shape::Tile(tile))
+    });
     let side = if grid.side == "below" { "below the lower bound" } else { "above the upper bound" };
     let axis = Axis::from_names(format!("powers of ten {side}"), grid.columns.clone());
-    let panel = Panel::new(axis, Axis::from_names("", grid.rows.clone()))
-        .with(tiles.into_iter().map(|(outcome, tile)| series(outcome).mark(Shape::Tile(tile))));
+    let panel = Panel::new(axis, Axis::from_names("", grid.rows.clone())).with(tiles);
     let wrong: Vec<f64> = grid.cells.iter().map(|cells| cells.iter().map(|tally| tally.wrong as f64).sum()).collect();
     let panel = if wrong.len() > MAX_ROWS { panel.ranked(&wrong, MAX_ROWS) } else { panel };
     let caption = "Each cell shows the worst of its numbers; the JSON file has all rows.";

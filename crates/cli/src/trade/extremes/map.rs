@@ -163,15 +163,15 @@ pub(super) type Reasons = BTreeMap<(Kind, Outcome, String), Reason>;
 
 impl Extremes {
     /// Adds a number, in the cell (grid, row, column) if it belongs to one.
-    pub(super) fn add(&mut self, cell: Option<(usize, usize, usize)>, found: Reason, reasons: &mut Reasons) {
-        self.counts.add(found.outcome);
-        self.kinds[found.kind as usize].1.add(found.outcome);
+    pub(super) fn add(&mut self, cell: Option<(usize, usize, usize)>, reason: Reason, reasons: &mut Reasons) {
+        self.counts.add(reason.outcome);
+        self.kinds[reason.kind as usize].1.add(reason.outcome);
         if let Some((grid, row, column)) = cell {
-            self.grids[grid].cells[row][column].add(found.outcome);
+            self.grids[grid].cells[row][column].add(reason.outcome);
         }
-        if found.outcome != Outcome::Right {
-            let key = (found.kind, found.outcome, found.reason.clone());
-            reasons.entry(key).or_insert(found).count += 1;
+        if reason.outcome != Outcome::Right {
+            let key = (reason.kind, reason.outcome, reason.reason.clone());
+            reasons.entry(key).or_insert(reason).count += 1;
         }
     }
 }

@@ -79,7 +79,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let model = study.subject().model(&space);
     let second = second_calculation(&**study.subject(), &space);
     let points = points(&space, job.points, job.seed);
-    let found = run_each(
+    let findings = run_each(
         model.as_ref(),
         job.threads,
         &context,
@@ -97,12 +97,13 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
         reasons: Vec::new(),
     };
     let mut reasons = Reasons::new();
-    for (point, findings) in points.iter().zip(found) {
+    for (point, findings) in points.iter().zip(findings) {
         let inputs = space.factors().iter().zip(&point.x);
         let inputs: Map<String, Value> =
             inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect();
         for (output, finding) in model.outputs().iter().zip(findings) {
-            let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
+            let reference = finding.reference.filter(|value| value.is_finite());
+            let [value, reference] = [finding.value, reference].map(|value| Some(output.unit.from_si(value?)));
             let reason = Reason {
                 kind: point.kind,
                 outcome: finding.outcome,
@@ -111,8 +112,8 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
                 place: point.place.clone(),
                 inputs: inputs.clone(),
                 output: output.name.to_string(),
-                value: in_unit(finding.value),
-                reference: in_unit(finding.reference.filter(|value| value.is_finite())),
+                value,
+                reference,
             };
             map.add(point.cell, reason, &mut reasons);
         }
@@ -153,11 +154,11 @@ fn evaluate(
         return Err(give_up.clone());
     }
     let outputs = 0..model.outputs().len();
-    let of_output = |output: usize| match batch.failures().iter().find(|(failed, ..)| *failed == output) {
+    let values = outputs.clone().map(|output| match batch.failures().iter().find(|(failed, ..)| *failed == output) {
         Some((.., why)) => Err(why.clone()),
         None => Ok(batch.column(output)[0]),
-    };
-    let values: Vec<Result<f64, RowFailure>> = outputs.clone().map(of_output).collect();
+    });
+    let values: Vec<Result<f64, RowFailure>> = values.collect();
     let raised = model.flags().iter().zip(batch.flags()).filter(|(_, raised)| **raised > 0);
     let flags: Vec<&str> = raised.map(|(flag, _)| &*flag.name).collect();
     let counter = model.counters().iter().position(|counter| counter.name == LARGEST_ERROR);
@@ -229,9 +230,9 @@ impl Reference {
         // Subnormal numbers have no relative precision.
         let underflow = 2.0 * f64::MIN_POSITIVE * f64::EPSILON;
         let apart = if value == self.value { 0.0 } else { (value - self.value).abs() };
-        let within = |relative: f64| apart <= underflow || apart.is_finite() && apart <= relative * self.value.abs();
-        let is_covered = within(self.floor) || self.stated.is_none_or(|stated| apart <= stated);
-        is_covered.then(|| within(self.tolerance))
+        let [is_at_floor, is_right] = [self.floor, self.tolerance]
+            .map(|relative| apart <= underflow || apart.is_finite() && apart <= relative * self.value.abs());
+        (is_at_floor || self.stated.is_none_or(|stated| apart <= stated)).then_some(is_right)
     }
 }
 

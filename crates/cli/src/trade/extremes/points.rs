@@ -43,11 +43,12 @@ impl Reach {
         let mut outermost = [0.0; 2];
         factor.fill_si(&[SMALLEST_U, LARGEST_U], &mut outermost);
         let (low, high) = factor.distribution().support();
-        let si = |bound: f64, outermost: f64| if bound.is_finite() { factor.unit().to_si(bound) } else { outermost };
+        let [low, high] = [(low, outermost[0]), (high, outermost[1])]
+            .map(|(bound, outermost)| if bound.is_finite() { factor.unit().to_si(bound) } else { outermost });
         Self {
             name: factor.name.clone(),
-            low: si(low, outermost[0]),
-            high: si(high, outermost[1]),
+            low,
+            high,
             nominal: factor.unit().to_si(factor.nominal),
             leaves: factor.distribution().labels().is_none(),
         }
@@ -89,11 +90,12 @@ pub(super) fn grids(space: &Space) -> Vec<Grid> {
     let rows: Vec<String> = space.factors().iter().map(|factor| factor.name.replace('_', " ")).collect();
     let above: Vec<String> = POWERS.iter().map(ToString::to_string).collect();
     let below = above.iter().cloned().chain(SPECIAL.map(str::to_owned)).collect();
-    let grid = |(side, columns): (&str, Vec<String>)| {
+    let sides: [(&str, Vec<String>); 2] = [("below", below), ("above", above)];
+    let grids = sides.map(|(side, columns)| {
         let cells = vec![vec![Tally::default(); columns.len()]; rows.len()];
         Grid { side: side.to_owned(), rows: rows.clone(), columns, cells }
-    };
-    [("below", below), ("above", above)].map(grid).to_vec()
+    });
+    grids.to_vec()
 }
 
 /// Returns all steps of every factor past its bounds, even if these are many, and about `count` points in all; random
@@ -111,8 +113,8 @@ pub(super) fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
 
 /// Returns the corner at which the factors selected by `is_high` are at their upper bounds.
 fn corner(reaches: &[Reach], mut is_high: impl FnMut(usize) -> bool) -> Vec<f64> {
-    let bound = |(number, reach): (usize, &Reach)| if is_high(number) { reach.high } else { reach.low };
-    reaches.iter().enumerate().map(bound).collect()
+    let reaches = reaches.iter().enumerate();
+    reaches.map(|(number, reach)| if is_high(number) { reach.high } else { reach.low }).collect()
 }
 
 /// Adds all corners, or `max` of them, the lowest and the highest included.

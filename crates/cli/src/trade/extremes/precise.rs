@@ -70,11 +70,10 @@ fn rounding(formula: &Expression, x: &[f64]) -> f64 {
 
 /// Returns a formula at `x`, and how much rounding may move it in doubles.
 pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Unchecked> {
-    let not_available = |why: &str| Unchecked::NotAvailable(why.to_owned());
     let unreached = "the formula has a function (erf, gamma, a huge angle or power) that is not computed in 320 bits";
-    let value = precise(formula, x).ok_or_else(|| not_available(unreached))?;
+    let value = precise(formula, x).ok_or_else(|| Unchecked::NotAvailable(unreached.to_owned()))?;
     if value.is_nan() {
-        return Err(not_available("the formula has no value in 320 bits"));
+        return Err(Unchecked::NotAvailable("the formula has no value in 320 bits".to_owned()));
     }
     let covered = "rounding in doubles costs the formula its digits, by cancellation or underflow";
     Ok(Reference { value, stated: Some(rounding(formula, x)), tolerance: 1e-9, floor: 1e-9, covered })

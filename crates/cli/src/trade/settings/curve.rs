@@ -1,7 +1,7 @@
 //! The compared curves: a study's settings, each at a growing number of base samples.
 
 use apportion::design::{DesignError, DesignSettings, Sampler};
-use apportion::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoice, Target};
+use apportion::study::{AnalysisOptions, Rung, Study, SurrogateChoice, Target};
 use apportion::uncertainty::IntervalMethod;
 use apportion_base::names::named;
 use serde::{Deserialize, Serialize};
@@ -34,19 +34,22 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Returns all curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates,
-    /// the other samplers.
+    /// Returns all curves of `study`: every rung with and without surrogates, and at the study's rung, without
+    /// surrogates, the other samplers.
     pub fn all(study: &Study) -> Vec<Self> {
         let settings = study.design().settings();
         let rungs = rungs(study);
         let name = study.subject().rung_name();
         let rung = rungs.iter().find(|rung| rung.name == name).unwrap_or(&rungs[0]).clone();
-        let own = Self { axis: Axis::Fidelity, rung, sampler: settings.sampler, surrogate: SurrogateChoice::Off };
-        const SURROGATE: [SurrogateChoice; 2] = [SurrogateChoice::Off, SurrogateChoice::On];
-        let of_rung = |rung: Rung| SURROGATE.map(|surrogate| Self { rung: rung.clone(), surrogate, ..own.clone() });
-        let mut curves: Vec<Self> = rungs.into_iter().flat_map(of_rung).collect();
+        let base = Self { axis: Axis::Fidelity, rung, sampler: settings.sampler, surrogate: SurrogateChoice::Off };
+        let mut curves = Vec::new();
+        for rung in rungs {
+            for surrogate in [SurrogateChoice::Off, SurrogateChoice::On] {
+                curves.push(Self { rung: rung.clone(), surrogate, ..base.clone() });
+            }
+        }
         let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
-        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..own.clone() }));
+        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..base.clone() }));
         curves
     }
 
@@ -62,9 +65,9 @@ impl Curve {
 
     /// Returns `study` with these settings.
     pub fn study(&self, study: &Study, base_samples: u64, seed: u64) -> Result<Study, DesignError> {
-        let usual = IntervalMethod::default_for(self.sampler);
-        let own = study.analysis().intervals;
-        let intervals = if own.serves(self.sampler) { own } else { usual };
+        let intervals = study.analysis().intervals;
+        let serves = intervals.serves(self.sampler);
+        let intervals = if serves { intervals } else { IntervalMethod::default_for(self.sampler) };
         let analysis = AnalysisOptions { intervals, surrogate: self.surrogate, ..indices_only(study) };
         let replicates = match self.sampler == study.design().settings().sampler {
             true => study.design().settings().replicates,
@@ -95,13 +98,12 @@ pub(super) fn rungs(study: &Study) -> Vec<Rung> {
     if !ladder.is_empty() {
         return ladder;
     }
-    let of_low = |low: &LowFidelity| Rung {
+    let cheaper = study.low_fidelities().iter().rev().map(|low| Rung {
         name: low.name.clone(),
         subject: low.subject.clone(),
         lines: format!("# the cheaper model `{}` instead of the model\n", low.name),
         is_finest: false,
-    };
+    });
     let (name, subject) = (study.subject().rung_name(), study.subject().clone());
-    let own = Rung { name, subject, lines: String::new(), is_finest: true };
-    study.low_fidelities().iter().rev().map(of_low).chain([own]).collect()
+    cheaper.chain([Rung { name, subject, lines: String::new(), is_finest: true }]).collect()
 }

@@ -4,6 +4,7 @@ use apportion::result::json;
 use apportion_report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape, Spacing, Stroke};
 use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
 use apportion_report::format::{count, grouped, significant};
+use apportion_report::two_digits;
 
 use super::curve::Axis as Varied;
 use super::{Advice, Comparison, Measured};
@@ -11,7 +12,7 @@ use super::{Advice, Comparison, Measured};
 /// Errors below this are drawn at this value.
 const MIN_ERROR: f64 = 1e-6;
 
-/// Maximum number of curves that are drawn: the study's own and the chosen ones, then the other rungs.
+/// Maximum number of curves that are drawn: the study's curve and the chosen ones, then the other rungs.
 const CURVES: usize = 6;
 
 /// Builds the document of a comparison.
@@ -53,11 +54,11 @@ fn describe_setting(of: &Measured) -> String {
 }
 
 fn seconds(seconds: f64) -> String {
-    let two: f64 = format!("{seconds:.1e}").parse().unwrap_or(seconds);
-    match two {
-        s if s < 1e-3 => format!("{} µs", significant(s * 1e6)),
-        s if s < 1.0 => format!("{} ms", significant(s * 1e3)),
-        s => format!("{} s", significant(s)),
+    // Rounded to two digits, 0.996 is 1.
+    match seconds {
+        s if s < 0.995e-3 => format!("{} µs", two_digits(s * 1e6)),
+        s if s < 0.995 => format!("{} ms", two_digits(s * 1e3)),
+        s => format!("{} s", two_digits(s)),
     }
 }
 
@@ -74,9 +75,9 @@ fn lead(file: &Comparison) -> Vec<String> {
             short_error(error)
         ),
     };
-    let found: Vec<(&Advice, &Measured)> =
+    let settings: Vec<(&Advice, &Measured)> =
         file.advice.iter().filter_map(|advice| Some((advice, setting(file, advice)?))).collect();
-    let cheapest = match found.iter().find(|(advice, _)| advice.accuracy <= 0.01).or(found.last()) {
+    let cheapest = match settings.iter().find(|(advice, _)| advice.accuracy <= 0.01).or(settings.last()) {
         Some((advice, of)) => format!(
             "For an accuracy of {}, the cheapest setting is {}: {} in {} runs.",
             significant(advice.accuracy),
@@ -92,16 +93,14 @@ fn lead(file: &Comparison) -> Vec<String> {
 fn advice_table(file: &Comparison) -> Part {
     let caption = "The cheapest setting whose largest error, over all indices and seeds, is no more than the accuracy; the study's \
                    own where it differs from that by no more than the noise of time and error.";
-    let of = |said: fn(&Measured) -> String, none: &'static str| {
-        move |advice: &Advice| setting(file, advice).map_or_else(|| none.to_owned(), said)
-    };
-    Table::from_rows(caption, &file.advice)
-        .number("accuracy", |advice| significant(advice.accuracy))
-        .text("setting", of(|of| of.curve.clone(), "none of those measured"))
-        .number("base samples", of(|of| grouped(of.base_samples), ""))
-        .number("runs", of(|of| grouped(of.runs), ""))
-        .number("time", of(|of| seconds(of.seconds), ""))
-        .number("largest error", of(|of| short_error(of.error), ""))
+    let rows = file.advice.iter().map(|advice| (advice.accuracy, setting(file, advice)));
+    Table::from_rows(caption, rows)
+        .number("accuracy", |(accuracy, _)| significant(accuracy))
+        .text("setting", |(_, of)| of.map_or("none of those measured", |of| &of.curve))
+        .number("base samples", |(_, of)| of.map_or_else(String::new, |of| grouped(of.base_samples)))
+        .number("runs", |(_, of)| of.map_or_else(String::new, |of| grouped(of.runs)))
+        .number("time", |(_, of)| of.map_or_else(String::new, |of| seconds(of.seconds)))
+        .number("largest error", |(_, of)| of.map_or_else(String::new, |of| short_error(of.error)))
         .into()
 }
 
@@ -129,7 +128,7 @@ fn is_rung(curve: &[Measured]) -> bool {
     curve[0].axis == Varied::Fidelity && !curve[0].has_surrogate
 }
 
-/// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the whole time if the
+/// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the total time if the
 /// rung is so slow that it was measured only once.
 fn seconds_of_run(curve: &[Measured]) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);
@@ -146,11 +145,10 @@ fn rung_table(file: &Comparison) -> Option<Part> {
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
     let caption = "The time of one model run on all threads, and the smallest error for any number of runs.";
-    let times = |seconds: f64| format!("{:.1e}", seconds / cheapest).parse().unwrap_or(f64::INFINITY);
     let table = Table::from_rows(caption, &rungs)
         .text("rung", |(_, curve)| &curve[0].curve)
         .number("time of a model run", |(of_run, _)| seconds(*of_run))
-        .number("times the cheapest", |(of_run, _)| significant(times(*of_run)))
+        .number("times the cheapest", |(of_run, _)| two_digits(*of_run / cheapest))
         .number("least error", |(_, curve)| short_error(curve.iter().filter_map(|of| of.error).reduce(f64::min)));
     (rungs.len() > 1).then(|| table.into())
 }
@@ -168,9 +166,9 @@ fn chart(file: &Comparison, headline: &str) -> Chart {
     // Errors below that of the reference cannot be distinguished.
     let least = file.truth.error.unwrap_or(0.0).max(MIN_ERROR);
     let mut drawn = curves(file);
-    let is_chosen = |curve: &str| file.advice.iter().filter_map(|one| setting(file, one)).any(|of| of.curve == curve);
-    let is_first = |of: &Measured| of.curve == file.own || is_chosen(&of.curve);
-    drawn.sort_by_key(|curve| (!is_first(&curve[0]), !is_rung(curve)));
+    let mut first = vec![file.own.as_str()];
+    first.extend(file.advice.iter().filter_map(|advice| Some(setting(file, advice)?.curve.as_str())));
+    drawn.sort_by_key(|curve| (!first.contains(&curve[0].curve.as_str()), !is_rung(curve)));
     let more = drawn.len().saturating_sub(CURVES);
     drawn.truncate(CURVES);
     let lines = drawn.into_iter().enumerate().map(|(place, curve)| {

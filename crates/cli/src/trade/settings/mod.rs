@@ -1,7 +1,7 @@
 //! Comparison of the settings of a study: the time of each, and the distance of its indices from the reference.
 //!
 //! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
-//! part of the time allows; its own error is part of every reported error. Times are measured, so they differ between
+//! part of the time allows; the error of the reference is part of every reported error. Times are measured, so they differ between
 //! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/trade.md`.
 
 mod curve;
@@ -10,7 +10,7 @@ mod document;
 use std::sync::atomic::AtomicBool;
 
 use apportion::analysis::study_setup;
-use apportion::result::{OutputResult, StudyResult, StudySetup};
+use apportion::result::{StudyResult, StudySetup};
 use apportion::run::{RunError, threads_in_force};
 use apportion::study::{Study, SurrogateChoice, Target};
 use apportion_base::clock::Instant;
@@ -51,7 +51,7 @@ pub struct SettingsJob<'a> {
     pub threads: usize,
     /// Stops it soon after it is set.
     pub stop: &'a AtomicBool,
-    /// Receives the next measurement, and the completed part of the whole.
+    /// Receives the next measurement, and the completed part of the comparison.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
@@ -77,8 +77,8 @@ pub struct Comparison {
     /// Number of threads of the runs.
     pub threads: usize,
     /// The reference for the errors.
-    pub truth: TruthFound,
-    /// The curve of the study's own model and sampler, without surrogates.
+    pub truth: TruthRecord,
+    /// The curve of the study's model and sampler, without surrogates.
     pub own: String,
     /// All measured settings.
     pub settings: Vec<Measured>,
@@ -97,10 +97,10 @@ pub struct Advice {
 
 /// The reference for the errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TruthFound {
+pub struct TruthRecord {
     /// Its description.
     pub words: String,
-    /// Its own error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
+    /// Its error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
     pub error: Option<f64>,
     /// Number of model runs for it.
     pub runs: u64,
@@ -138,31 +138,42 @@ pub struct Measured {
     pub lines: String,
 }
 
+impl Measured {
+    /// Returns whether it is on the curve of this name, with or without surrogates.
+    fn is_on(&self, curve: &str) -> bool {
+        self.curve.trim_end_matches(SURROGATES) == curve
+    }
+}
+
 /// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
 /// reference are equal.
 fn front(settings: &[Measured], truth_error: f64) -> Vec<usize> {
-    let error = |k: usize| settings[k].error.map(|error| error.max(truth_error));
     let mut order: Vec<usize> = (0..settings.len()).collect();
     order.sort_by(|&a, &b| settings[a].seconds.total_cmp(&settings[b].seconds));
     let mut best = f64::INFINITY;
     order.retain(|&k| {
-        let is_better = error(k).is_some_and(|error| error < best);
-        best = best.min(error(k).unwrap_or(best));
+        let error = settings[k].error.map_or(f64::INFINITY, |error| error.max(truth_error));
+        let is_better = error < best;
+        best = best.min(error);
         is_better
     });
     order
 }
 
 /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the study's
-/// `own` model and sampler instead, if that differs from that by no more than the noise of time and error.
-fn cheapest(settings: &[Measured], truth_error: f64, own: &str, accuracy: f64) -> Option<usize> {
-    let reaches = |error: Option<f64>| error.is_some_and(|error| error + truth_error <= accuracy);
-    let quickest = front(settings, truth_error).into_iter().find(|&k| reaches(settings[k].error))?;
+/// curve `study_curve` instead, if that differs from that by no more than the noise of time and error.
+fn cheapest(settings: &[Measured], truth_error: f64, study_curve: &str, accuracy: f64) -> Option<usize> {
+    let mut front = front(settings, truth_error).into_iter();
+    let quickest = front.find(|&k| settings[k].error.is_some_and(|error| error + truth_error <= accuracy))?;
     let best = &settings[quickest];
-    let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
-    let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == own;
-    let own = settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
-    own.or(Some(quickest))
+    if best.is_on(study_curve) {
+        return Some(quickest);
+    }
+    let alike = settings.iter().position(|of| {
+        let reaches = of.least_error.is_some_and(|error| error + truth_error <= accuracy);
+        of.is_on(study_curve) && of.seconds <= best.usual_seconds && reaches
+    });
+    alike.or(Some(quickest))
 }
 
 /// Target half width of a reference.
@@ -173,7 +184,7 @@ type Indices = Vec<[f64; 2]>;
 
 struct Truth {
     outputs: Vec<Option<Indices>>,
-    found: TruthFound,
+    record: TruthRecord,
 }
 
 impl Truth {
@@ -183,8 +194,8 @@ impl Truth {
         if let Some((first, total)) = study.subject().exact_indices(study.space()) {
             let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
             let words = "the exact indices of the function".to_owned();
-            let found = TruthFound { words, error: Some(0.0), runs: 0, seconds: 0.0 };
-            return Ok(Self { outputs: vec![Some(indices)], found });
+            let record = TruthRecord { words, error: Some(0.0), runs: 0, seconds: 0.0 };
+            return Ok(Self { outputs: vec![Some(indices)], record });
         }
         let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
         let name = rung.as_ref().map_or_else(String::new, |rung| rung.name.clone());
@@ -197,17 +208,20 @@ impl Truth {
         let finest = finest.clone().with_design(study.design().settings().clone(), analysis).unwrap_or(finest);
         let start = Instant::now();
         let result = job.run(&finest)?;
-        let known = result.outputs.iter().filter(|output| output.indices.is_some());
-        let error =
-            known.map(OutputResult::largest_half_width).try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
-        let of_output = |output: &OutputResult| {
-            let indices = output.indices.as_ref()?;
-            Some(indices.iter().map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect())
-        };
+        let (mut outputs, mut error) = (Vec::new(), Some(0.0));
+        for output in &result.outputs {
+            let indices = output.indices.as_ref().map(|indices| {
+                indices.iter().map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect()
+            });
+            if indices.is_some() {
+                error = error.zip(output.largest_half_width()).map(|(largest, width)| f64::max(largest, width));
+            }
+            outputs.push(indices);
+        }
         let runs = result.spending.as_ref().map_or(result.provenance.model_runs, |spending| spending.runs);
         let words = format!("a run of {name} with {} base samples", result.provenance.base_samples);
-        let found = TruthFound { words, error, runs, seconds: start.elapsed().as_secs_f64() };
-        Ok(Self { outputs: result.outputs.iter().map(of_output).collect(), found })
+        let record = TruthRecord { words, error, runs, seconds: start.elapsed().as_secs_f64() };
+        Ok(Self { outputs, record })
     }
 }
 
@@ -227,19 +241,21 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    let (truth, own) = (truth.found, job.study.subject().rung_name());
+    let (truth, own) = (truth.record, job.study.subject().rung_name());
     let truth_error = truth.error.unwrap_or(f64::INFINITY);
     for place in front(&settings, truth_error) {
         settings[place].is_on_front = true;
     }
-    let advice = |accuracy| Advice { accuracy, setting: cheapest(&settings, truth_error, &own, accuracy) };
+    let advice = ACCURACIES
+        .map(|accuracy| Advice { accuracy, setting: cheapest(&settings, truth_error, &own, accuracy) })
+        .to_vec();
     Ok(Comparison {
         format: "apportion-trade".to_owned(),
         version: 1,
         study: study_setup(job.study),
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         threads: threads_in_force(job.threads),
-        advice: ACCURACIES.map(advice).to_vec(),
+        advice,
         truth,
         own,
         settings,
@@ -255,7 +271,6 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
         let began = start.elapsed().as_secs_f64();
         let (mut errors, mut times, mut last) = (Vec::new(), Vec::new(), None);
         let seeds = job.seeds.max(1) as usize;
-        let is_late = || start.elapsed().as_secs_f64() > seconds;
         while errors.len() < seeds || times.iter().sum::<f64>() < MIN_SECONDS {
             let seed = job.study.design().settings().seed.wrapping_add((times.len() % seeds) as u64);
             let Ok(study) = curve.study(job.study, base_samples, seed) else { return Ok(all) };
@@ -270,15 +285,15 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
                 errors.push(error(&result, truth));
             }
             last = Some(result.provenance);
-            if errors.len() >= MIN_SEEDS && is_late() {
+            if errors.len() >= MIN_SEEDS && start.elapsed().as_secs_f64() > seconds {
                 break;
             }
         }
         times.sort_by(f64::total_cmp);
-        let largest = |first: usize, step: usize| {
-            let errors = errors.iter().skip(first % errors.len()).step_by(step);
-            errors.copied().try_fold(0.0, |largest: f64, error: Option<f64>| Some(largest.max(error?)))
-        };
+        let [error, even, odd] = [(0, 1), (0, 2), (1, 2)].map(|(first, step)| {
+            let mut errors = errors.iter().skip(first % errors.len()).step_by(step);
+            errors.try_fold(0.0, |largest: f64, error| Some(largest.max((*error)?)))
+        });
         all.extend(last.map(|of| Measured {
             curve: curve.name(),
             axis: curve.axis,
@@ -288,8 +303,8 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
             seconds: times[0],
             usual_seconds: times[times.len() / 2],
             seeds: errors.len(),
-            error: largest(0, 1),
-            least_error: largest(0, 2).zip(largest(1, 2)).map(|(one, other)| one.min(other)),
+            error,
+            least_error: even.zip(odd).map(|(one, other)| one.min(other)),
             is_on_front: false,
             lines: curve.lines(of.base_samples),
         }));
@@ -308,8 +323,8 @@ fn error(result: &StudyResult, truth: &Truth) -> Option<f64> {
     for (output, truth) in result.outputs.iter().zip(&truth.outputs) {
         let (Some(indices), Some(truth)) = (&output.indices, truth) else { continue };
         for (index, [first, total]) in indices.iter().zip(truth) {
-            for (found, truth) in [(index.effect.first_order, first), (index.effect.total, total)] {
-                let error = (found.estimate - truth).abs();
+            for (estimate, truth) in [(index.effect.first_order, first), (index.effect.total, total)] {
+                let error = (estimate.estimate - truth).abs();
                 largest = Some(if error.is_nan() { f64::INFINITY } else { error.max(largest.unwrap_or(0.0)) });
             }
         }
