@@ -30,10 +30,13 @@ pub(super) struct Flag<'a> {
 impl Flag<'_> {
     /// Returns whether one covers the other or is crossed by its pole.
     fn collides(&self, other: &Flag) -> bool {
-        let crossed =
-            |flag: &Flag, by: &Flag| by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP;
-        let covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
-        covered || crossed(self, other) || crossed(other, self)
+        let is_covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
+        is_covered || self.is_crossed_by(other) || other.is_crossed_by(self)
+    }
+
+    /// Returns whether the pole of the other one crosses it.
+    fn is_crossed_by(&self, other: &Flag) -> bool {
+        other.row >= self.row && self.from - GAP < other.pole && other.pole < self.to + GAP
     }
 }
 

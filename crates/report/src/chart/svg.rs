@@ -188,30 +188,32 @@ impl Canvas {
 
 /// Formats text as XML content or attribute value; characters that XML forbids become U+FFFD.
 fn escaped(text: &str) -> String {
-    let allowed = |c: char| match c {
+    let allowed = text.chars().map(|c| match c {
         '\t' | '\n' => c,
         '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => char::REPLACEMENT_CHARACTER,
         _ => c,
-    };
-    let text = text.chars().map(allowed).collect::<String>().replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;").replace('\'', "&apos;")
+    });
+    let text = allowed.collect::<String>().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&apos;")
 }
 
 /// Half the diagonal of a diamond, px.
 pub(super) const HALF_DIAMOND: f64 = 4.2;
 
+/// Formats a rectangle as path data.
+fn rectangle((left, right): (f64, f64), (top, bottom): (f64, f64)) -> String {
+    format!("M{} {}H{}V{}H{}z", Px(left), Px(top), Px(right), Px(bottom), Px(left))
+}
+
 /// Returns the stripes of a bar of a dashed or dotted series as path data, for print in grey; `None` for a full bar.
 pub(super) fn stripes((left, right): (f64, f64), (top, bottom): (f64, f64), stroke: Stroke) -> Option<String> {
     const STEP: f64 = 4.5;
-    let area = |(left, right): (f64, f64), (top, bottom): (f64, f64)| {
-        format!("M{} {}H{}V{}H{}z", Px(left), Px(top), Px(right), Px(bottom), Px(left))
-    };
     let third = (bottom - top) / 3.0;
     let level = [(top, bottom - 2.0 * third), (top + 2.0 * third, bottom)];
     let upright = (0..).map(|stripe| right - STEP * f64::from(stripe)).take_while(|x| *x > left);
     match stroke {
-        Stroke::Dashed => Some(upright.map(|x| area(((x - 0.6 * STEP).max(left), x), (top, bottom))).collect()),
-        Stroke::Dotted => Some(level.map(|y| area((left, right), y)).concat()),
+        Stroke::Dashed => Some(upright.map(|x| rectangle(((x - 0.6 * STEP).max(left), x), (top, bottom))).collect()),
+        Stroke::Dotted => Some(level.map(|y| rectangle((left, right), y)).concat()),
         _ => None,
     }
 }
@@ -243,8 +245,8 @@ impl Canvas {
     pub fn dots(&mut self, dots: &[(f64, f64)], colour: Colour) {
         let mut d = String::with_capacity(14 * dots.len());
         for (x, y) in dots {
-            let tenth = |v: &f64| Px((10.0 * v).round() / 10.0);
-            d.push_str(&format!("M{} {}h0", tenth(x), tenth(y)));
+            let [x, y] = [x, y].map(|length| Px((10.0 * length).round() / 10.0));
+            d.push_str(&format!("M{x} {y}h0"));
         }
         self.leaf(
             "path",

@@ -43,11 +43,14 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
         return line;
     }
     let mut used = face.width("…");
-    let fits = |c: &char| {
+    let mut kept = String::new();
+    for c in line.chars() {
         used += face.width(c.encode_utf8(&mut [0; 4]));
-        used <= width
-    };
-    let kept: String = line.chars().take_while(fits).collect();
+        if used > width {
+            break;
+        }
+        kept.push(c);
+    }
     format!("{}…", kept.trim_end())
 }
 

@@ -55,7 +55,7 @@ fn alone(figure: &PaperFigure) -> Figure {
         id: figure.stem.to_owned(),
         label: figure.label.clone(),
         title: None,
-        beside: match figure.label.split_once(" fig") {
+        comparison_note: match figure.label.split_once(" fig") {
             Some(_) => theirs(figure),
             None => figure.theirs.to_owned(),
         },
@@ -77,7 +77,7 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
     let members = || figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group);
     let labels: Vec<&str> = members().map(|member| member.label.as_str()).collect();
     let beside: Vec<String> = members().map(theirs).collect();
-    Some(Figure { label: labels.join(", "), beside: beside.join(" "), ..alone(figure) })
+    Some(Figure { label: labels.join(", "), comparison_note: beside.join(" "), ..alone(figure) })
 }
 
 /// Embeds the animation of the push.
