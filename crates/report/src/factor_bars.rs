@@ -5,7 +5,7 @@ use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{PrintedEstimate, fixed, index as of_error, minus, name, two_digits};
-use super::output_view::effects;
+use super::output_view::{IndexOf, effects};
 
 /// Maximum number of factors in a chart.
 pub(super) const MAX_BARS: usize = 20;
@@ -91,9 +91,9 @@ fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     Bar { row, to: index.estimate, interval, label, value_text: of_error(index), ..Bar::default() }
 }
 
-/// Returns the sentence of a caption that says that only the `most` largest factors are drawn.
-pub(super) fn not_drawn(all: usize, most: usize) -> String {
-    if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
+/// Returns the sentence of a caption that says that only the `max_bars` largest factors are drawn.
+pub(super) fn not_drawn(count: usize, max_bars: usize) -> String {
+    if count > max_bars { format!(" The {max_bars} largest of {count} factors are drawn.") } else { String::new() }
 }
 
 /// One study in a chart of percentages.
@@ -115,7 +115,7 @@ pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[Shar
         let totals = series.iter().filter_map(|series| series.effect(factor)).map(|effect| effect.total.estimate);
         keys.push(totals.fold(f64::NEG_INFINITY, f64::max));
     }
-    let kinds: [(&str, fn(&EffectEstimates) -> Estimate); 2] =
+    let kinds: [(&str, IndexOf); 2] =
         [("S_1: the factor alone", |effect| effect.first_order), ("S_T: with its interactions", |effect| effect.total)];
     let panels = kinds.map(|(title, of)| {
         let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());

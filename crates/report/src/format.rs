@@ -42,17 +42,17 @@ const SMALL: f64 = 1e-5;
 const SIGNIFICANT: usize = 6;
 
 /// Formats `value` with so many significant digits; the digits before the decimal point are all written.
-fn significant_to(value: f64, most: usize) -> String {
+fn significant_to(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
-    let scientific = format!("{value:.*e}", most.saturating_sub(1));
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let power: i32 = exponent.parse().unwrap_or(0);
-    let most = most as i32;
-    match value.abs() < SMALL || power > most + 2 {
-        true => format!("{}e{exponent}", without_zeros(digits)),
-        false => without_zeros(&format!("{value:.*}", (most - 1 - power).max(0) as usize)).to_owned(),
+    let max_power = digits as i32 - 1;
+    match value.abs() < SMALL || power > max_power + 3 {
+        true => format!("{}e{exponent}", without_zeros(mantissa)),
+        false => without_zeros(&format!("{value:.*}", (max_power - power).max(0) as usize)).to_owned(),
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Contender {
     pub label: String,
     /// The quantity it is ranked by: the total index, or another measure.
     pub total: Estimate,
-    /// Probability that it is the largest, where it is known.
+    /// Probability that it is the largest, if there is one.
     pub probability: Option<f64>,
 }
 

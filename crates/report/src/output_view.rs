@@ -1,7 +1,7 @@
 //! Some of the outputs of a result, as the subject of a document or a section, and access to their indices.
 
 use apportion::result::{OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
-use apportion::uncertainty::EffectEstimates;
+use apportion::uncertainty::{EffectEstimates, Estimate};
 
 use crate::format::name;
 
@@ -129,6 +129,9 @@ impl<'a> OutputView<'a> {
         self.together.as_ref().and_then(|together| together.reason).unwrap_or("the result has none")
     }
 }
+
+/// A choice of one of the indices of a factor.
+pub(crate) type IndexOf = fn(&EffectEstimates) -> Estimate;
 
 /// Iterates over the names and indices of the factors of an output, or of its groups in their place.
 pub(crate) fn effects(output: &OutputResult) -> impl Iterator<Item = (&str, &EffectEstimates)> + Clone {

@@ -252,7 +252,7 @@ impl<'a> Sheet<'a> {
             }
             let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom + TICK.cap_height()) / 2.0);
             let label = self.label_text(&point.label);
-            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().whole(&point.label));
+            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().tooltip(&point.label));
         }
         canvas.close("g");
     }

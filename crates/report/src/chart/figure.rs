@@ -131,8 +131,8 @@ impl<'a> Figure<'a> {
         let (mut x, mut y) = (MARGIN, self.top + 5.0 + ROW / 2.0);
         for entry in entries {
             let key = entry.key.width() + KEY_GAP;
-            let most = self.medium.width.choose(1, 3);
-            let name = wrap_within(&entry.name, right - MARGIN - key, most, BODY);
+            let max_lines = self.medium.width.choose(1, 3);
+            let name = wrap_within(&entry.name, right - MARGIN - key, max_lines, BODY);
             let length = key + name.iter().map(|line| BODY.width(line)).fold(0.0, f64::max);
             if x > MARGIN && x + length > right {
                 (x, y) = (MARGIN, y + ROW);
@@ -142,7 +142,7 @@ impl<'a> Figure<'a> {
                 y += if row == 0 { 0.0 } else { BODY.leading() };
                 let at = (x + key, y + BODY.cap_height() / 2.0);
                 let text = Text::new(line, at, BODY);
-                self.canvas.text(&if name.len() == 1 { text.whole(&entry.name) } else { text });
+                self.canvas.text(&if name.len() == 1 { text.tooltip(&entry.name) } else { text });
             }
             x += length + ENTRY_GAP;
         }

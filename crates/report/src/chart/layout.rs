@@ -296,9 +296,9 @@ fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
     Scale::over(values, ScaleOptions { spacing: first.y.spacing, air: 0.05, steps: steps(height, 45.0, 6) })
 }
 
-/// Returns the approximate number of steps between ticks of an axis: one for so many px, but at most `most`.
-fn steps(length: f64, px: f64, most: usize) -> usize {
-    ((length / px).round() as usize).clamp(3, most)
+/// Returns the approximate number of steps between ticks of an axis: one for so many px, but at most `max_steps`.
+fn steps(length: f64, px: f64, max_steps: usize) -> usize {
+    ((length / px).round() as usize).clamp(3, max_steps)
 }
 
 /// Returns the name of a row as written next to the plot.

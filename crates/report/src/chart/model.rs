@@ -151,13 +151,13 @@ impl Panel {
         Self { title: title.into(), ..self }
     }
 
-    /// Sorts the rows by falling keys and keeps only the first `most` of them.
-    pub fn ranked(mut self, keys: &[f64], most: usize) -> Self {
+    /// Sorts the rows by falling keys and keeps only the first `max_rows` of them.
+    pub fn ranked(mut self, keys: &[f64], max_rows: usize) -> Self {
         let keys = keys.iter().map(|key| if key.is_nan() { f64::NEG_INFINITY } else { *key });
         let mut order: Vec<(usize, f64)> =
             (0..self.y.names.len()).zip(keys.chain(std::iter::repeat(f64::NEG_INFINITY))).collect();
         order.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let order: Vec<usize> = order.into_iter().take(most).map(|(row, _)| row).collect();
+        let order: Vec<usize> = order.into_iter().take(max_rows).map(|(row, _)| row).collect();
         self.marks.retain_mut(|mark| {
             let row = match &mut mark.shape {
                 Shape::Bar(bar) => &mut bar.row,

@@ -210,10 +210,10 @@ impl<'a> Sheet<'a> {
             // With a white rim, since a rule may run through it.
             let line = shorten(name, self.layout.page.px() - 2.0 * MARGIN, TICK);
             let baseline = middle - self.layout.rows.bars / 2.0 - 4.0;
-            canvas.text(&Text::new(&line, (MARGIN, baseline), TICK).halo().whole(name));
+            canvas.text(&Text::new(&line, (MARGIN, baseline), TICK).halo().tooltip(name));
         } else if self.is_first_column {
             let at = (self.plot.left - TEXT_GAP, baseline);
-            canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).whole(name));
+            canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).tooltip(name));
         }
     }
 }

@@ -45,13 +45,13 @@ pub(super) struct Text<'a> {
     fill: &'static str,
     turn: f64,
     halo: bool,
-    whole: Option<&'a str>,
+    tooltip: Option<&'a str>,
 }
 
 impl<'a> Text<'a> {
     /// Creates dark text that starts at `at`, a point of its baseline.
     pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
-        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, whole: None }
+        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, tooltip: None }
     }
 
     pub fn anchor(self, anchor: Anchor) -> Self {
@@ -73,8 +73,8 @@ impl<'a> Text<'a> {
     }
 
     /// Sets the unshortened text as the tooltip.
-    pub fn whole(self, whole: &'a str) -> Self {
-        Self { whole: (whole != self.content).then_some(whole), ..self }
+    pub fn tooltip(self, tooltip: &'a str) -> Self {
+        Self { tooltip: (tooltip != self.content).then_some(tooltip), ..self }
     }
 }
 
@@ -145,8 +145,8 @@ impl Canvas {
         self.start("text", &attributes);
         self.out.push('>');
         self.words(text);
-        if let Some(whole) = text.whole {
-            self.push(format_args!("<title>{}</title>", escaped(whole)));
+        if let Some(tooltip) = text.tooltip {
+            self.push(format_args!("<title>{}</title>", escaped(tooltip)));
         }
         self.out.push_str("</text>\n");
     }

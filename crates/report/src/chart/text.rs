@@ -54,11 +54,11 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// Breaks text into at most `most` lines no wider than `width` px; the last one is shortened if there is more.
-pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Vec<String> {
+/// Breaks text into at most `max_lines` lines no wider than `width` px; the last one is shortened if there is more.
+pub(super) fn wrap_within(text: &str, width: f64, max_lines: usize, face: Face) -> Vec<String> {
     let mut lines = wrap(text, width, face);
-    if lines.len() > most {
-        let rest = lines.split_off(most.saturating_sub(1)).join(" ");
+    if lines.len() > max_lines {
+        let rest = lines.split_off(max_lines.saturating_sub(1)).join(" ");
         lines.push(shorten(&rest, width, face));
     }
     lines

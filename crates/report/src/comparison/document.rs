@@ -81,7 +81,10 @@ fn moment(estimate: f64, interval: Option<Interval>) -> String {
     }
 }
 
-fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&ComparedFactor) -> &ComparedIndex) -> Part {
+/// A choice of one of the indices of a factor.
+type IndexOf = fn(&ComparedFactor) -> &ComparedIndex;
+
+fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: IndexOf) -> Part {
     let caption = format!(
         "{what} in both, with the half width of its 95 % interval, and the difference; a star marks differences whose interval \
          excludes 0."
@@ -166,7 +169,7 @@ fn all_indices(file: &ComparisonFile) -> Table {
 /// Draws the indices side by side. Of more than 20 factors, those with the largest total indices in either result.
 pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
-    let kinds: [(&str, fn(&ComparedFactor) -> &ComparedIndex); 2] =
+    let kinds: [(&str, IndexOf); 2] =
         [("First-order indices", |factor| &factor.first_order), ("Total indices", |factor| &factor.total)];
     let panels = kinds.map(|(title, of)| {
         let series = [

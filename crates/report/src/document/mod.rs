@@ -121,7 +121,7 @@ pub struct Figure {
     pub id: String,
     /// Its label, such as `CHK fig. 6`; may be empty.
     pub label: String,
-    /// Its title on the page, if the chart's own title repeats that of the document.
+    /// Its title on the page, if the title of the chart repeats that of the document.
     pub title: Option<String>,
     /// What to compare it with, such as what the paper's figure shows; may be empty.
     pub comparison_note: String,
@@ -190,7 +190,7 @@ impl Document {
         self
     }
 
-    /// Numbers the figures in order, except those with a label of their own.
+    /// Numbers the figures in order, except those whose label is set.
     pub(crate) fn number_figures(&mut self) {
         let mut number = 0;
         self.visit_mut(&mut |part| {
@@ -217,7 +217,7 @@ impl Document {
 pub(crate) fn grouped_by_key<K: PartialEq, V>(items: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
     let mut groups: Vec<(K, Vec<V>)> = Vec::new();
     for (key, item) in items {
-        match groups.iter_mut().find(|(known, _)| *known == key) {
+        match groups.iter_mut().find(|(other, _)| *other == key) {
             Some((_, group)) => group.push(item),
             None => groups.push((key, vec![item])),
         }

@@ -226,19 +226,19 @@ impl<R: Copy> Rows<R> {
         self
     }
 
-    /// Prints the first `most` of the rows in this order; the caption then says how many of `what` there are.
-    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, most: usize, what: &str) -> Self {
+    /// Prints the first `max_rows` of the rows in this order; the caption then says how many of `what` there are.
+    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, max_rows: usize, what: &str) -> Self {
         let mut order: Vec<usize> = order.into_iter().collect();
-        self.table.caption.push_str(&largest(order.len().min(most), order.len(), what));
-        order.truncate(most);
+        self.table.caption.push_str(&largest(order.len().min(max_rows), order.len(), what));
+        order.truncate(max_rows);
         self.table.printed = Some(order);
         self
     }
 
-    /// Prints the first `most` of the rows in their own order.
-    pub fn first(self, most: usize, what: &str) -> Self {
+    /// Prints the first `max_rows` of the rows in their own order.
+    pub fn first(self, max_rows: usize, what: &str) -> Self {
         let all = 0..self.rows.len();
-        self.largest(all, most, what)
+        self.largest(all, max_rows, what)
     }
 
     /// Sets the cell of the last column in the row of sums.

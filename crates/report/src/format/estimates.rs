@@ -44,20 +44,18 @@ enum PrintedError {
 
 impl PrintedEstimate {
     /// Chooses the digits of an estimate.
-    pub fn new(record: Estimate) -> Self {
-        let Estimate { estimate, interval: Some(interval) } = record else {
-            return Self { estimate: record.estimate, error: PrintedError::Unknown, decimals: 0, power: 0 };
-        };
-        let Interval { low, high } = interval;
-        let half = (high - low) / 2.0;
+    pub fn new(Estimate { estimate, interval }: Estimate) -> Self {
+        let Some(bounds) = interval else { return Self::alone(estimate, PrintedError::Unknown) };
+        let (below, above) = (estimate - bounds.low, bounds.high - estimate);
+        let half = (bounds.high - bounds.low) / 2.0;
         // An error of rounding is none of a number that six digits hold.
         let cut = (six_digits(estimate) - estimate).abs();
         if !(half.max(cut) > ROUNDING * estimate.abs() && half > 0.0 && half.is_finite() && estimate.is_finite()) {
-            return Self { estimate, error: PrintedError::OfRounding, decimals: 0, power: 0 };
+            return Self::alone(estimate, PrintedError::OfRounding);
         }
-        let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
+        let (nearer, farther) = (f64::min(below, above), f64::max(below, above));
         if nearer * EVEN < farther && half >= MIN_SHOWN * estimate.abs() {
-            return Self::with_bounds(estimate, interval);
+            return Self::with_bounds(estimate, bounds);
         }
         let decimals = decimals_of(farther, 20.0).min(max_decimals(estimate));
         let unit = libm::pow(10.0, f64::from(-decimals));
@@ -65,6 +63,10 @@ impl PrintedEstimate {
         let error = if is_cut { unit * (farther / unit + 0.5).ceil() } else { farther };
         let power = common_power(estimate, error);
         Self { estimate, error: PrintedError::HalfWidth(error), decimals, power }
+    }
+
+    fn alone(estimate: f64, error: PrintedError) -> Self {
+        Self { estimate, error, decimals: 0, power: 0 }
     }
 
     fn with_bounds(estimate: f64, bounds: Interval) -> Self {
@@ -84,15 +86,6 @@ impl PrintedEstimate {
         }
     }
 
-    /// Returns whether the printed numbers exclude 0 from below.
-    fn is_above_zero(&self) -> bool {
-        match self.error {
-            PrintedError::HalfWidth(half) => self.rounded(self.estimate) > self.rounded(half),
-            PrintedError::Bounds(bounds) => self.rounded(bounds.low) != 0.0,
-            PrintedError::Unknown | PrintedError::OfRounding => true,
-        }
-    }
-
     /// Returns the number without its error, if it has no more than `max_decimals` and no power of ten.
     pub(crate) fn short_number(&self, max_decimals: usize) -> Option<String> {
         let text = match self.error {
@@ -101,8 +94,13 @@ impl PrintedEstimate {
             _ => self.digits(self.estimate),
         };
         let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        let has_power = self.power != 0 && text != "0";
-        (!has_power && decimals <= max_decimals).then(|| minus(&text))
+        (!self.has_power() && decimals <= max_decimals).then(|| minus(&text))
+    }
+
+    /// Returns whether the estimate has a power of ten: a zero next to a half width has none.
+    fn has_power(&self) -> bool {
+        let is_zero = matches!(self.error, PrintedError::HalfWidth(_)) && self.digits(self.estimate) == "0";
+        self.power != 0 && !is_zero
     }
 
     fn rounded(&self, value: f64) -> f64 {
@@ -125,19 +123,18 @@ impl PrintedEstimate {
 impl fmt::Display for PrintedEstimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let estimate = self.digits(self.estimate);
-        let (text, power) = match self.error {
+        let text = match self.error {
             PrintedError::Unknown => return f.write_str(&rounded(self.estimate, WITHOUT_ERROR)),
             PrintedError::OfRounding => return f.write_str(&significant(self.estimate)),
-            PrintedError::HalfWidth(half) => (format!("{estimate} ± {}", self.digits(half)), self.power),
+            PrintedError::HalfWidth(half) => format!("{estimate} ± {}", self.digits(half)),
             PrintedError::Bounds(Interval { low, high }) => {
-                (format!("{estimate} [{}, {}]", self.digits(low), self.digits(high)), self.power)
+                format!("{estimate} [{}, {}]", self.digits(low), self.digits(high))
             }
         };
-        match (power, self.error) {
-            (0, _) => f.write_str(&text),
-            // The power belongs to the half width alone.
-            (_, PrintedError::HalfWidth(_)) if estimate == "0" => write!(f, "{text}e{power}"),
-            _ => write!(f, "({text})e{power}"),
+        match self.power {
+            0 => f.write_str(&text),
+            power if self.has_power() => write!(f, "({text})e{power}"),
+            power => write!(f, "{text}e{power}"),
         }
     }
 }
@@ -149,7 +146,13 @@ pub fn give_or_take(record: Estimate) -> String {
 
 /// Returns whether an interval excludes 0 from below, also as printed.
 pub fn is_above_zero(record: Estimate) -> bool {
-    record.interval.is_some_and(|interval| interval.low > 0.0) && PrintedEstimate::new(record).is_above_zero()
+    let printed = PrintedEstimate::new(record);
+    let is_printed_above = match printed.error {
+        PrintedError::HalfWidth(half) => printed.rounded(printed.estimate) > printed.rounded(half),
+        PrintedError::Bounds(bounds) => printed.rounded(bounds.low) != 0.0,
+        PrintedError::Unknown | PrintedError::OfRounding => true,
+    };
+    record.interval.is_some_and(|interval| interval.low > 0.0) && is_printed_above
 }
 
 /// Formats like [`give_or_take`], for sentences, with true minus signs.

@@ -211,7 +211,7 @@ pub fn build_given(
 
 /// Returns a sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
-    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.in_table(found.first + 1)))
+    Unlikely::find(&column.values).map(|value| format!("{}: {}", column.name, value.in_table(value.first + 1)))
 }
 
 fn points_name(points: &PointSet) -> &'static str {

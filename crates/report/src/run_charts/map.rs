@@ -1,13 +1,13 @@
 //! Overview of many outputs: a map of factors and outputs, the bars of all outputs together, and a series along its axis.
 
 use apportion::result::{OutputResult, PlainIndexRecord, SeriesRecord};
-use apportion::uncertainty::{EffectEstimates, Estimate};
+use apportion::uncertainty::Estimate;
 
 use crate::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::factor_bars::{INDEX, MAX_BARS, not_drawn, pair_panel};
 use crate::format::{axis_unit, fixed, index, name};
 use crate::leading::falling;
-use crate::output_view::{OutputView, effect_at};
+use crate::output_view::{IndexOf, OutputView, effect_at};
 
 /// Maximum number of outputs of a map; of more, an even selection is drawn.
 const ROWS: usize = 40;
@@ -49,7 +49,7 @@ pub(crate) fn map_chart(view: &OutputView<'_>) -> Chart {
 }
 
 /// The panels of both charts. The total indices are above: they show whether a factor matters at all.
-const PANELS: [(&str, fn(&EffectEstimates) -> Estimate); 2] = [
+const PANELS: [(&str, IndexOf); 2] = [
     ("Total indices S_T: with all interactions", |effect| effect.total),
     ("First-order indices S_1: alone", |effect| effect.first_order),
 ];

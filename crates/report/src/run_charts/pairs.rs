@@ -152,12 +152,12 @@ fn target_line(stages: &[StageRecord], target: f64) -> Mark {
 
 /// States the precision of the indices at the end.
 fn caption(result: &StudyResult, output: &OutputResult) -> String {
-    let known = match (output.convergence.last(), widest_of(output)) {
+    let precision = match (output.convergence.last(), widest_of(output)) {
         (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),
         (Some(last), None) => {
             format!("After {} model runs there are indices without an interval.", grouped(last.model_runs))
         }
         (None, _) => "There are too few base samples to estimate the indices from parts of them.".to_owned(),
     };
-    known + &not_drawn(result.indexed_names().len(), LINES)
+    precision + &not_drawn(result.indexed_names().len(), LINES)
 }

@@ -12,7 +12,7 @@ use crate::document::{Cell, DataFile, Part, Rows, Table, csv};
 use crate::format::{among_with_unit, chance, grouped, index_with_unit, minus, name, printed, significant, value};
 use crate::given::measures_table;
 use crate::leading::{by_total, falling, surely_interact};
-use crate::output_view::effects as effects_of;
+use crate::output_view::{IndexOf, effects as effects_of};
 
 /// Maximum number of factors in a table; the files have all of them.
 pub(crate) const FACTORS: usize = 50;
@@ -250,7 +250,7 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
 #[derive(Clone, Copy)]
 struct EstimatorColumn {
     other: fn(&OtherIndexRecord) -> Option<Estimate>,
-    default: fn(&EffectEstimates) -> Estimate,
+    default: IndexOf,
 }
 
 fn estimator_table(output: &OutputResult, caption: &str, column: EstimatorColumn) -> Option<Part> {

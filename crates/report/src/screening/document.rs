@@ -132,14 +132,14 @@ fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
 
 /// Draws mu* against sigma.
 pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
-    let known: Vec<(&ScreenedFactor, f64, f64)> = output
+    let effects: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
         .iter()
         .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
         .collect();
     let points = readings().flat_map(|reading| {
-        let own = known.iter().filter(move |(factor, ..)| factor.reading == reading);
-        own.map(move |&(factor, x, y)| {
+        let members = effects.iter().filter(move |(factor, ..)| factor.reading == reading);
+        members.map(move |&(factor, x, y)| {
             // Those without effect all lie at the origin; the caption names them.
             let label = reading.map_or_else(String::new, |_| words(&factor.factor));
             series(reading).mark(Shape::Point(Point { x, y, label }))
@@ -151,7 +151,7 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         file.provenance.trajectories,
         leader(output)
     );
-    let (right, top) = known.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
+    let (right, top) = effects.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
     let slopes =
         [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
     let slopes = slopes.map(|(slope, name, stroke)| {
@@ -170,8 +170,8 @@ fn readings() -> impl Iterator<Item = Option<Reading>> {
 /// Draws mu* with its intervals.
 pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let bars = readings().flat_map(|reading| {
-        let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
-        own.filter_map(move |(row, factor)| {
+        let members = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
+        members.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
             let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
             let label = index_with_unit(mu_star, &output.unit) + fixed;

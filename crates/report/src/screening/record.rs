@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::with_unit;
 
-/// A whole screening.
+/// A screening.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreeningFile {
     /// Always `apportion-screening`.
