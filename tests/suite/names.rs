@@ -111,7 +111,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
     let path = folder.with("s.toml", longest);
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(all_files(&out).len(), 5 + 2 * 8);
+    assert_eq!(all_files(&out).len(), 4 + 2 * 8);
 }
 
 #[test]
