@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 use crate::messages::messages;
 
 /// The text of the element `id` of a page.
@@ -52,53 +52,14 @@ fn a_study_of_series_has_a_page() {
 }
 
 #[test]
-fn the_page_of_a_run_links_to_its_own() {
+fn only_live_writes_a_live_page() {
     let folder = Folder::new();
     let to = folder.path("out");
     let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
     let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
-    assert!(done.contains("ishigami-live.html"), "{done}");
-    let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("href=\"ishigami-live.html\""));
-    assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
-    let of_a_program = study_path("command-python/command-python");
-    let program = [&["run", text(&of_a_program)], &out[..]].concat();
-    succeed(&program);
-    assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
-}
-
-/// The study in an untrusted result does not make the program read a file.
-#[test]
-fn the_live_page_of_a_result_reads_no_files() {
-    let folder = Folder::new();
-    let to = folder.path("out");
-    let out = ["--charts", "none", "--base-samples", "64", "--set", "title=A file, and a command", "--out", text(&to)];
-    succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
-    assert!(to.join("ishigami-live.html").exists(), "a word is taken for a file");
-    let result = std::fs::read_to_string(to.join("ishigami.json")).unwrap();
-    // The first one would never end.
-    for change in ["factor.x1={ file = \\\"/dev/zero\\\", column = \\\"x\\\" }", "command.program=\\\"/dev/zero\\\""] {
-        let hostile = result.replace("\"title=A file, and a command\"", &format!("\"{change}\""));
-        assert_ne!(hostile, result);
-        let (path, drawn) = (folder.with("ishigami.json", &hostile), folder.path("drawn"));
-        succeed(&["report", text(&path), "--charts", "none", "--out", text(&drawn)]);
-        assert!(drawn.join("ishigami.html").exists() && !drawn.join("ishigami-live.html").exists(), "{change}");
-        std::fs::remove_dir_all(&drawn).unwrap();
-    }
-}
-
-#[test]
-fn the_page_of_a_run_names_the_command_that_makes_its_own() {
-    let folder = Folder::new();
-    let to = folder.path("out");
-    let out = ["--no-live", "--charts", "none", "--base-samples", "256", "--out", text(&to)];
-    succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
-    assert!(!to.join("ishigami-live.html").exists());
-    let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("<code>apportion live ishigami.toml</code>"));
-    succeed(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
-    let page = std::fs::read_to_string(to.join("command-python.html")).unwrap();
-    assert!(!page.contains("apportion live"));
+    assert!(done.contains("ishigami.html") && !done.contains("live"), "{done}");
+    assert!(all_files(&to).iter().all(|file| !file.contains("live")));
+    assert!(!std::fs::read_to_string(to.join("ishigami.html")).unwrap().contains("apportion live"));
 }
 
 #[test]

@@ -64,8 +64,8 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let there = all_files(&out);
-    // Page, live page, result, indices, convergence; and four charts of each output, twice.
-    assert_eq!(there.len(), 5 + names.len() * 8, "{there:?}");
+    // Page, result, indices, convergence; and four charts of each output, twice.
+    assert_eq!(there.len(), 4 + names.len() * 8, "{there:?}");
     assert_eq!(
         there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(),
         there.len()
@@ -76,7 +76,7 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     // The same again from the result, and from two of them.
     let (json, again) = (out.join("s.json"), folder.path("again"));
     assert_eq!(apportion(&["report", text(&json), "--out", text(&again)]).status.code(), Some(0));
-    assert_eq!(all_files(&again).len(), 5 + names.len() * 8);
+    assert_eq!(all_files(&again).len(), 4 + names.len() * 8);
     let (both, screened) = (folder.path("both"), folder.path("screened"));
     assert_eq!(apportion(&["compare", text(&json), text(&json), "--out", text(&both)]).status.code(), Some(0));
     assert_eq!(all_files(&both).len(), 3 + names.len() * 4);
@@ -111,7 +111,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
     let path = folder.with("s.toml", longest);
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(all_files(&out).len(), 5 + 2 * 8);
+    assert_eq!(all_files(&out).len(), 4 + 2 * 8);
 }
 
 #[test]

@@ -14,8 +14,8 @@ fn check_writes_nothing_and_run_writes_its_files() {
     succeed(&["check", text(&study), "--out", text(&out)]);
     assert!(!out.exists(), "check writes nothing");
     let table = succeed(&["run", text(&study), "--out", text(&out), "--base-samples", "1024"]);
-    // Page, live page, result, indices and convergence; four charts of two outputs, each as SVG and PNG.
-    assert_eq!(all_files(&out).len(), 5 + 2 * 4 * 2);
+    // Page, result, indices and convergence; four charts of two outputs, each as SVG and PNG.
+    assert_eq!(all_files(&out).len(), 4 + 2 * 4 * 2);
     messages!().add_printed("run", &table);
 }
 

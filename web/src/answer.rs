@@ -7,9 +7,9 @@ use apportion::analysis::study_setup;
 use apportion::result::StudyResult;
 use apportion_files::{ModelKind, StudyError, edited};
 use apportion_report::document::{DataFile, symbols};
-use apportion_report::{one_output, run_document};
+use apportion_report::{Subject, output_document, run_document};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// What a page can ask of a study: its `text`, with `changes` as those of the program's `--set`.
 #[derive(Debug, Deserialize)]
@@ -72,7 +72,7 @@ impl Request {
             Wanted::Description => self.study().map(|study| description(&study)),
             Wanted::Run { sections, output } => {
                 let result = self.result()?;
-                Ok(view(&one_output(&result, output.as_deref()), sections))
+                Ok(view(&result, Subject::find(&result, output.as_deref()), sections))
             }
             Wanted::Files => {
                 let document = run_document(&self.result()?);
@@ -111,9 +111,9 @@ fn in_words(error: &StudyError) -> String {
 }
 
 /// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
-fn view(result: &StudyResult, sections: &[String]) -> Value {
+fn view(result: &StudyResult, subject: Option<Subject<'_>>, sections: &[String]) -> Value {
     let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
-    let document = run_document(result).excerpt(&ids);
+    let document = output_document(result, subject).excerpt(&ids);
     let section = |id: &String| {
         let html = document.section_html(id)?;
         let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));
@@ -124,28 +124,25 @@ fn view(result: &StudyResult, sections: &[String]) -> Value {
         "lead": document.lead.iter().map(|text| symbols(text)).collect::<Vec<_>>(),
         "plain_lead": document.lead,
         "sections": sections,
-        "percentages": percentages(result),
+        "percentages": percentages(subject),
         "runs": result.provenance.model_runs,
         "base_samples": result.provenance.base_samples,
     })
 }
 
-/// Of the series, or the first output, by factor: 100 S_T as far as it is known.
-fn percentages(result: &StudyResult) -> Value {
+/// Of a series, or an output, by factor: 100 S_T as far as it is known.
+fn percentages(subject: Option<Subject<'_>>) -> Value {
     let percent = |x: f64| json!({ "total": x.is_finite().then_some(100.0 * x) });
-    let entries = match result.series.first() {
-        Some(series) => {
+    let entries = match subject {
+        Some(Subject::Series(series)) => {
             let indices = series.indices.iter().flatten();
             indices.map(|index| (index.factor.clone(), percent(index.total.estimate))).collect()
         }
-        None => {
-            let indices = result.outputs.first().and_then(|output| output.indices.as_ref());
-            indices
-                .into_iter()
-                .flatten()
-                .map(|index| (index.factor.clone(), percent(index.effect.total.estimate)))
-                .collect()
+        Some(Subject::Output(output)) => {
+            let indices = output.indices.iter().flatten();
+            indices.map(|index| (index.factor.clone(), percent(index.effect.total.estimate))).collect()
         }
+        None => Map::new(),
     };
     Value::Object(entries)
 }

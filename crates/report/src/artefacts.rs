@@ -1,7 +1,7 @@
 //! The files of a document and how they are written.
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -144,8 +144,9 @@ impl Artefacts {
             let svg = figure.chart.svg_at(self.width);
             self.formats.iter().try_for_each(|format| {
                 let file = format!("{CHARTS}/{}.{}", figure.stem, format.name());
-                let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
-                self.put(&file, stop, &picture(&svg, *format).map_err(failed)?).map(drop)
+                let picture = picture(&svg, *format)
+                    .map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
+                self.put(&file, stop, &picture).map(drop)
             })
         })?;
         let page = document.html_in_folder(&self.formats);
@@ -159,8 +160,8 @@ impl Artefacts {
             return Err(ArtefactError::Stopped);
         }
         let path = self.folder.join(path);
-        let real = |path: &Path| std::fs::canonicalize(path).ok();
-        if self.input.as_ref().is_some_and(|input| real(input).is_some() && real(input) == real(&path)) {
+        let input = self.input.as_ref().and_then(|input| std::fs::canonicalize(input).ok());
+        if input.is_some() && input == std::fs::canonicalize(&path).ok() {
             return Err(ArtefactError::Input { path });
         }
         write_atomically(&path, bytes)?;

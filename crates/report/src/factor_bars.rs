@@ -4,7 +4,8 @@ use apportion::result::{OutputResult, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
-use super::format::{fixed, index as of_error, minus, name, two_digits};
+use super::format::{PrintedEstimate, fixed, index as of_error, minus, name, two_digits};
+use super::output_view::{IndexOf, effects};
 
 /// Maximum number of factors in a chart.
 pub(super) const MAX_BARS: usize = 20;
@@ -81,21 +82,18 @@ fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     if !is_possible || length.is_some_and(|length| length > LONGEST) {
         return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
     }
-    let said = of_error(index);
-    let printed = said.split(' ').next().unwrap_or_default();
-    let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let label = match decimals > DECIMALS || said.starts_with('(') {
-        true if index.estimate.abs() < SMALL => minus(&two_digits(index.estimate)),
-        true => minus(&fixed(index.estimate, DECIMALS)),
-        false => printed.to_owned(),
+    let label = match PrintedEstimate::new(index).short_number(DECIMALS) {
+        Some(label) => label,
+        None if index.estimate.abs() < SMALL => minus(&two_digits(index.estimate)),
+        None => minus(&fixed(index.estimate, DECIMALS)),
     };
     let interval = index.interval.map(|i| (i.low.max(possible.0 - BEYOND), i.high.min(possible.1 + BEYOND)));
-    Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
+    Bar { row, to: index.estimate, interval, label, value_text: of_error(index), ..Bar::default() }
 }
 
-/// Returns the sentence of a caption that says that only the `most` largest factors are drawn.
-pub(super) fn not_drawn(all: usize, most: usize) -> String {
-    if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
+/// Returns the sentence of a caption that says that only the `max_bars` largest factors are drawn.
+pub(super) fn not_drawn(count: usize, max_bars: usize) -> String {
+    if count > max_bars { format!(" The {max_bars} largest of {count} factors are drawn.") } else { String::new() }
 }
 
 /// One study in a chart of percentages.
@@ -112,26 +110,25 @@ pub struct SharesSeries<'a> {
 /// Draws the indices of `factors` in each of `series`, in percent of the variance: first order on the left, total on the
 /// right, the factor with the largest total index on top. Of more than 20 factors, the first 20.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
-    let largest = |factor: &&str| {
-        let indices = series.iter().filter_map(|series| index(series, factor, |effect| effect.total));
-        indices.map(|index| index.estimate).fold(f64::NEG_INFINITY, f64::max)
-    };
-    let keys: Vec<f64> = factors.iter().map(largest).collect();
-    let panel = |title: &str, of: fn(&EffectEstimates) -> Estimate| {
+    let mut keys = Vec::new();
+    for factor in factors {
+        let totals = series.iter().filter_map(|series| series.effect(factor)).map(|effect| effect.total.estimate);
+        keys.push(totals.fold(f64::NEG_INFINITY, f64::max));
+    }
+    let kinds: [(&str, IndexOf); 2] =
+        [("S_1: the factor alone", |effect| effect.first_order), ("S_T: with its interactions", |effect| effect.total)];
+    let panels = kinds.map(|(title, of)| {
         let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());
-        let bars = series.iter().flat_map(|series| {
-            factors.iter().enumerate().map(move |(row, factor)| {
-                let index = index(series, factor, of);
+        let mut panel = Panel::new(Axis::new("% of the variance", ""), names).titled(title);
+        for series in series {
+            for (row, factor) in factors.iter().enumerate() {
                 let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
-                series.series.mark(Shape::Bar(Bar { published, ..percent_bar(row, index) }))
-            })
-        });
-        Panel::new(Axis::new("% of the variance", ""), names).titled(title).with(bars).ranked(&keys, MAX_BARS)
-    };
-    let panels = [
-        panel("S_1: the factor alone", |effect| effect.first_order),
-        panel("S_T: with its interactions", |effect| effect.total),
-    ];
+                let bar = Bar { published, ..percent_bar(row, series.effect(factor).map(of)) };
+                panel.marks.push(series.series.mark(Shape::Bar(bar)));
+            }
+        }
+        panel.ranked(&keys, MAX_BARS)
+    });
     Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MAX_BARS))).side_by_side().panels(panels)
 }
 
@@ -146,17 +143,17 @@ fn percent_bar(row: usize, index: Option<Estimate>) -> Bar {
     }
 }
 
-/// Returns an index of a factor.
-fn index(series: &SharesSeries<'_>, factor: &str, of: fn(&EffectEstimates) -> Estimate) -> Option<Estimate> {
-    let mut indices = series.output.indices.iter().flatten();
-    indices.find(|index| index.factor == *factor).map(|index| of(&index.effect))
+impl SharesSeries<'_> {
+    /// Returns the indices of a factor.
+    fn effect(&self, factor: &str) -> Option<&EffectEstimates> {
+        effects(self.output).find(|(name, _)| *name == factor).map(|(_, effect)| effect)
+    }
 }
 
 /// Draws the Shapley effects on one output.
 pub fn shapley_chart(result: &StudyResult, output: &OutputResult) -> Chart {
-    let known = output.indices.iter().flatten();
-    let known = known.filter_map(|index| Some((name(&index.factor), Some(index.effect.shapley?))));
-    let (names, effects): (_, Vec<Option<Estimate>>) = known.unzip();
+    let shapley = effects(output).filter_map(|(factor, effect)| Some((name(factor), Some(effect.shapley?))));
+    let (names, effects): (_, Vec<Option<Estimate>>) = shapley.unzip();
     let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
     let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
     let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);

@@ -32,16 +32,18 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
         return vec![study.to_owned()];
     }
     let mut taken: HashSet<String> = HashSet::new();
-    let free = |(number, name): (usize, &&str)| {
+    let mut stems = Vec::new();
+    for (number, name) in (1..).zip(names) {
         let part = file_part(name);
-        let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
-        let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
-        let files =
-            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
-        let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
-        let stem = stem.unwrap_or_default();
-        taken.extend(files(&stem));
-        stem
-    };
-    names.iter().enumerate().map(free).collect()
+        let numbered = (number..).map(|n| format!("{study}-{part}-{n}"));
+        for stem in std::iter::once(format!("{study}-{part}")).chain(numbered) {
+            let files: Vec<String> = suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect();
+            if files.iter().all(|file| !taken.contains(file)) {
+                taken.extend(files);
+                stems.push(stem);
+                break;
+            }
+        }
+    }
+    stems
 }

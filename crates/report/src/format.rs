@@ -5,7 +5,7 @@ mod units;
 
 use apportion::uncertainty::Estimate;
 use apportion_base::text::symbol;
-pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
+pub use estimates::{PrintedEstimate, give_or_take, index, is_above_zero, percent, share};
 pub use units::unit;
 
 /// Formats a value with its unit, if it has one.
@@ -36,26 +36,50 @@ pub fn significant(value: f64) -> String {
     significant_to(value, SIGNIFICANT)
 }
 
+/// Magnitude below which numbers are written with a power of ten.
+const SMALL: f64 = 1e-5;
 /// Number of digits of [`significant`].
 const SIGNIFICANT: usize = 6;
 
 /// Formats `value` with so many significant digits; the digits before the decimal point are all written.
-fn significant_to(value: f64, most: usize) -> String {
+fn significant_to(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
-    let scientific = format!("{value:.*e}", most.saturating_sub(1));
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let power: i32 = exponent.parse().unwrap_or(0);
-    let trimmed = |text: &str| match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text.to_owned(),
-    };
-    let most = most as i32;
-    match value.abs() < estimates::SMALL || power > most + 2 {
-        true => format!("{}e{exponent}", trimmed(digits)),
-        false => trimmed(&format!("{value:.*}", (most - 1 - power).max(0) as usize)),
+    let max_power = digits as i32 - 1;
+    match value.abs() < SMALL || power > max_power + 3 {
+        true => format!("{}e{exponent}", without_zeros(mantissa)),
+        false => without_zeros(&format!("{value:.*}", (max_power - power).max(0) as usize)).to_owned(),
     }
+}
+
+/// Removes trailing zeros of the decimals.
+fn without_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+/// Formats an error or width by itself, with two significant digits: 0.000083, or 8.3e-7 if it is smaller.
+pub fn two_digits(value: f64) -> String {
+    rounded(value, 2)
+}
+
+/// Formats `value` with so many significant digits, without trailing zeros.
+fn rounded(value: f64, digits: usize) -> String {
+    significant_to(round_significant(value, digits), digits.max(SIGNIFICANT))
+}
+
+/// Rounds to so many significant digits; formatting and reading do it exactly.
+pub fn round_significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
+/// Returns the power of ten of the first digit of a number.
+fn exponent(value: f64) -> i32 {
+    let text = format!("{value:e}");
+    text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
 /// Formats a probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 it is a bound.
@@ -68,14 +92,14 @@ pub fn chance(probability: Option<f64>) -> String {
     }
 }
 
-/// Formats a value by `said`; a dash for `None`.
-pub fn or_dash<T>(value: Option<T>, said: impl FnOnce(T) -> String) -> String {
-    value.map_or_else(|| "–".to_owned(), said)
+/// Formats a value by `text`; a dash for `None`.
+pub fn or_dash<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), text)
 }
 
 /// Formats a value with four significant digits.
 pub fn short(value: f64) -> String {
-    estimates::rounded(value, 4)
+    rounded(value, 4)
 }
 
 /// Formats a value with four significant digits, or with as many more as distinguish values over a range of `spread`.
@@ -85,10 +109,10 @@ pub fn short_among(value: f64, spread: f64) -> String {
     /// Number of digits of a double.
     const MAX_DIGITS: i32 = 15;
     let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
-        true => (estimates::exponent(value) - estimates::exponent(spread) + SPREAD_DIGITS).clamp(4, MAX_DIGITS),
+        true => (exponent(value) - exponent(spread) + SPREAD_DIGITS).clamp(4, MAX_DIGITS),
         false => 4,
     };
-    estimates::rounded(value, digits as usize)
+    rounded(value, digits as usize)
 }
 
 /// Does the same as `short_among`, with the unit if there is one.
@@ -109,7 +133,7 @@ pub fn value(value: f64, unit: &str) -> String {
 
 /// Formats a value with three significant digits and a true minus sign, for charts.
 pub fn printed(value: f64) -> String {
-    minus(&estimates::rounded(value, 3))
+    minus(&rounded(value, 3))
 }
 
 /// Formats a value with three significant digits, trailing zeros included, and a true minus sign; a dash if not finite.
@@ -207,9 +231,12 @@ pub fn words(name: &str) -> String {
 
 /// Splits a text after its first word, or before it if it does not begin with one.
 pub(crate) fn split_word(text: &str) -> (&str, &str) {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let end = if text.starts_with(is_word) { text.find(|c| !is_word(c)) } else { text.find(is_word) };
+    let end = if text.starts_with(is_in_word) { text.find(|c| !is_in_word(c)) } else { text.find(is_in_word) };
     text.split_at(end.unwrap_or(text.len()))
+}
+
+fn is_in_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
 fn is_symbol(name: &str) -> bool {

@@ -1,11 +1,14 @@
-//! Which factor leads, as far as the intervals show, and how wide these are.
+//! Which factor leads, as far as the intervals show: the sentences at the top of documents.
 
-use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult};
+use apportion::analysis::MIN_OUTPUTS_TOGETHER;
+use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord};
 use apportion::uncertainty::{Estimate, Interval, LEVEL};
 use apportion_base::special::normal_quantile;
 use apportion_base::text::listed;
 
-use super::format::{chance, count, index, name, printed_half_width};
+use super::format::{chance, count, index, name, percent};
+use super::output_view::{OutputView, effects};
+use super::precision::precision_sentence;
 
 /// Probability from which on a lead counts as certain.
 const SURE: f64 = 0.95;
@@ -19,7 +22,7 @@ pub(super) struct Contender {
     pub label: String,
     /// The quantity it is ranked by: the total index, or another measure.
     pub total: Estimate,
-    /// Probability that it is the largest, where it is known.
+    /// Probability that it is the largest, if there is one.
     pub probability: Option<f64>,
 }
 
@@ -33,6 +36,11 @@ impl Contender {
     pub fn from_index(index: &IndexRecord) -> Self {
         let probability = index.effect.probability_first;
         Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
+    }
+
+    /// Formats its quantity with the unit.
+    fn size(&self, unit: &str) -> String {
+        format!("{} {unit}", index(self.total)).trim_end().to_owned()
     }
 }
 
@@ -61,13 +69,15 @@ pub(super) fn leaders(contenders: &[Contender]) -> Vec<usize> {
     let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
         (Some(probability), _) if probability >= SURE => 0,
         (Some(_), _) => {
-            let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
+            let likely =
+                rest.iter().rposition(|&k| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE));
             // Not certain, and no other one is likely: the next one.
-            rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
+            likely.map_or(1, |last| last + 1)
         }
         (None, Some(Interval { low, .. })) => {
-            let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
-            rest.iter().rposition(reaches).map_or(0, |last| last + 1)
+            let reaching =
+                rest.iter().rposition(|&k| contenders[k].total.interval.is_some_and(|interval| interval.high >= low));
+            reaching.map_or(0, |last| last + 1)
         }
         (None, None) => 0,
     };
@@ -78,23 +88,47 @@ pub(super) fn leaders(contenders: &[Contender]) -> Vec<usize> {
 /// Returns which of these interactions exist, tested together: one in forty 95 % intervals excludes 0 from below by
 /// chance, so each is widened by Bonferroni's rule (Dunn 1961), with the quantiles of the normal distribution.
 pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
-    let quantile = |number: f64| normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * number));
-    let ratio = quantile(pairs.len().max(1) as f64) / quantile(1.0);
-    let is_sure = |Estimate { estimate, interval }: Estimate| {
-        interval.is_some_and(|Interval { low, .. }| low > 0.0 && estimate - ratio * (estimate - low) > 0.0)
-    };
-    pairs.iter().map(|pair| is_sure(pair.index)).collect()
+    let ratio = joint_quantile(pairs.len().max(1)) / joint_quantile(1);
+    let mut sure = Vec::new();
+    for Estimate { estimate, interval } in pairs.iter().map(|pair| pair.index) {
+        sure.push(interval.is_some_and(|Interval { low, .. }| low > 0.0 && estimate - ratio * (estimate - low) > 0.0));
+    }
+    sure
+}
+
+/// Returns the quantile for the interval of one of `count` estimates that are tested together.
+fn joint_quantile(count: usize) -> f64 {
+    normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * count as f64))
 }
 
 /// Returns the measure by which factors of an output are ranked.
 pub(super) fn measure(output: &OutputResult) -> &'static str {
-    let is_shapley = |index: &IndexRecord| index.effect.dependent.is_some() && index.effect.shapley.is_some();
-    if output.indices.iter().flatten().any(is_shapley) { "Shapley effect" } else { "total index S_T" }
+    match effects(output).any(|(_, effect)| effect.dependent.is_some() && effect.shapley.is_some()) {
+        true => "Shapley effect",
+        false => "total index S_T",
+    }
+}
+
+/// Returns the factor that matters most for an output with certainty; `None` if the errors leave it open.
+fn sure_leader(output: &OutputResult) -> Option<usize> {
+    let order = by_total(output)?;
+    let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
+    // Without intervals nothing is certain.
+    let is_known = contenders.len() == 1 || contenders[0].total.interval.is_some();
+    (is_known && leaders(&contenders).len() == 1).then_some(order[0].0)
+}
+
+/// Counts for how many outputs each factor matters most with certainty.
+pub(super) fn leads(view: &OutputView<'_>) -> Vec<usize> {
+    let mut leads = vec![0; view.factors.len()];
+    for factor in view.outputs.iter().filter_map(|output| sure_leader(output)) {
+        leads[factor] += 1;
+    }
+    leads
 }
 
 /// Says which contender leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` for none.
 pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &str) -> Option<String> {
-    let size = |contender: &Contender| format!("{} {unit}", index(contender.total)).trim_end().to_owned();
     let leaders = leaders(contenders);
     let largest = &contenders[*leaders.first()?];
     if largest.total.estimate <= 0.0 {
@@ -102,12 +136,13 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
     }
     if leaders.len() == 1 {
         // An estimated probability is never certain.
-        let chance = |p: f64| chance(Some(p)).replace("> ", "more than ");
-        let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
-        let sure = sure.unwrap_or_default();
-        return Some(format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest)));
+        let sure = largest.probability.map_or_else(String::new, |probability| {
+            let chance = chance(Some(probability)).replace("> ", "more than ");
+            format!(", the largest with a probability of {chance}")
+        });
+        return Some(format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, largest.size(unit)));
     }
-    let tied = leaders.iter().map(|&k| format!("{} ({})", contenders[k].label, size(&contenders[k])));
+    let tied = leaders.iter().map(|&k| format!("{} ({})", contenders[k].label, contenders[k].size(unit)));
     let tied = first_names(tied);
     Some(format!("{of}, the most important factors cannot be distinguished by the {measure}: {tied}."))
 }
@@ -157,35 +192,60 @@ pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
     }
 }
 
-/// Half width from which an interval says nothing of a share of the variance: it may be as long as the whole range.
-pub const WIDE: f64 = 0.5;
-
-/// Returns the largest half width of any first-order or total index of a result at its end, those of several outputs
-/// together included; `None` without intervals.
-pub fn widest_interval(result: &StudyResult) -> Option<f64> {
-    let together = result.aggregate.iter().filter_map(|aggregate| aggregate.indices.as_ref());
-    let together = together.chain(result.series.iter().filter_map(|series| series.indices.as_ref())).flatten();
-    let together = together.flat_map(|index| [index.first_order, index.total]).filter_map(printed_half_width);
-    let widest = result.outputs.iter().filter_map(widest_of).reduce(f64::max)?;
-    Some(together.fold(widest, f64::max))
+/// Returns the paragraphs at the top of the page: on every series, then on the outputs outside series.
+pub(super) fn lead(view: &OutputView<'_>) -> Vec<String> {
+    let series = view.series.iter().map(|series| series_answer(&view.values(series)));
+    let mut lead = first_answers(series.collect());
+    lead.extend(match view.outputs.len() {
+        ..MIN_OUTPUTS_TOGETHER => first_answers(view.outputs.iter().map(|output| answer(output)).collect()),
+        _ => answer_on_all(view),
+    });
+    lead.push(precision_sentence(view));
+    lead
 }
 
-/// Returns the same for an output, not less than any half width in its table: that of the longer side, rounded.
-pub fn widest_of(output: &OutputResult) -> Option<f64> {
-    let widest = output.convergence.last()?.largest_half_width?;
-    let indices = output.indices.iter().flatten();
-    let all = indices.flat_map(|index| [index.effect.first_order, index.effect.total]);
-    Some(all.filter_map(printed_half_width).fold(widest, f64::max))
+/// Says which factor matters most for an output, and how much is noise, or which factors follow.
+fn answer(output: &OutputResult) -> String {
+    let order = by_total(output).unwrap_or_default();
+    let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
+    let tied = leaders(&contenders).len();
+    let next: Vec<String> = contenders
+        .iter()
+        .skip(tied)
+        .take(2)
+        .map(|contender| format!("{} ({})", contender.label, index(contender.total)))
+        .collect();
+    let verb = if next.len() == 1 { "comes" } else { "come" };
+    let next = (!next.is_empty()).then(|| format!("Next {verb} {}.", listed(&next)));
+    let sentences = [Some(leader_of(output)), noise_sentence(output).or(next)];
+    sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
-/// Names the indices that these half widths include: not second order, and not the mean over the noise.
-pub fn indices_measured(outputs: &[OutputResult]) -> &'static str {
-    let pairs = outputs.iter().any(|output| output.second_order.is_some());
-    let noise = outputs.iter().any(|output| output.noise.is_some());
-    match (pairs, noise) {
-        (false, false) => "every index",
-        (true, false) => "every first-order and total index",
-        (false, true) => "every index of the values",
-        (true, true) => "every first-order and total index of the values",
-    }
+/// Says which factor matters most over all values of a series.
+fn series_answer(values: &OutputView<'_>) -> String {
+    let subject = format!("For {} ({} values)", values.label, values.outputs.len());
+    let sentence = leader_of_all(values.together_indices(), &subject);
+    sentence.unwrap_or_else(|| format!("There are no indices of {}: {}.", values.label, values.reason()))
+}
+
+/// Says for how many of many outputs each factor matters most, and which one does over all together.
+fn answer_on_all(view: &OutputView<'_>) -> Vec<String> {
+    let leads = leads(view);
+    let mut order: Vec<usize> = (0..leads.len()).filter(|&factor| leads[factor] > 0).collect();
+    order.sort_by_key(|&factor| std::cmp::Reverse(leads[factor]));
+    let counted: Vec<String> =
+        order.iter().map(|&factor| format!("{} for {}", name(view.factors[factor]), leads[factor])).collect();
+    let count = view.outputs.len();
+    let mut answers = vec![match counted.is_empty() {
+        true => format!("No factor is sure to matter most for any of {count} outputs."),
+        false => format!("Matters most of {count} outputs, by the total index S_T: {}.", listed(&counted)),
+    }];
+    answers.extend(leader_of_all(view.together_indices(), "For all outputs together"));
+    answers
+}
+
+/// States the share of the variance of a stochastic model's output that no factor explains.
+pub(super) fn noise_sentence(output: &OutputResult) -> Option<String> {
+    let total = output.noise.as_ref()?.effect.total;
+    Some(format!("Of the variance, {} is noise that no factor explains.", percent(total)))
 }

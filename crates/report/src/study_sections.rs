@@ -2,9 +2,7 @@
 //! study.
 
 use apportion::CorrelationMeasure;
-use apportion::result::{
-    ConstantRecord, CorrelationRecord, FactorDistribution, FactorRecord, StudyRecord, StudyResult, ValidityRecord,
-};
+use apportion::result::{FactorDistribution, FactorRecord, StudyRecord, ValidityRecord};
 use apportion_base::text::listed;
 use serde_json::{Map, Value};
 
@@ -18,16 +16,15 @@ const MAX_VALUES: usize = 8;
 
 /// Builds the section on where the model's assumptions do not hold; shown on a terminal only if a flag was raised.
 pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
-    let share = |flag: &ValidityRecord| match (flag.runs, share_of_runs(flag.share)) {
-        (0, _) => Cell::marked("no run", Mark::Good),
-        (_, share) if flag.share < 0.5 => Cell::marked(share, Mark::Mixed),
-        (_, share) => Cell::marked(share, Mark::Bad),
-    };
     let text = "Runs that violate an assumption of the model are included; their share shows how much of the \
                 result depends on them.";
     let table = Table::from_rows("Flags that the model raises, with the share of the runs that have them.", validity)
         .text("flag", |flag| flag.flag.replace('-', " "))
-        .text("raised on", share)
+        .text("raised on", |flag| match (flag.runs, share_of_runs(flag.share)) {
+            (0, _) => Cell::marked("no run", Mark::Good),
+            (_, share) if flag.share < 0.5 => Cell::marked(share, Mark::Mixed),
+            (_, share) => Cell::marked(share, Mark::Bad),
+        })
         .text("meaning", |flag| &flag.description);
     let parts = vec![Part::Text(text.to_owned()), table.into()];
     let is_raised = validity.iter().any(|flag| flag.runs > 0);
@@ -74,12 +71,6 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     }
     parts.push(rows.into());
     if !study.dependences.is_empty() {
-        let measure = |record: &CorrelationRecord| match record.measure {
-            CorrelationMeasure::Pearson => "of the values (Pearson)",
-            CorrelationMeasure::Spearman => "of the ranks (Spearman)",
-            CorrelationMeasure::Kendall => "of the ranks (Kendall)",
-            CorrelationMeasure::Normal => "of the normal scores",
-        };
         let pairs = study.dependences.iter().flat_map(|record| {
             let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
             places.map(move |(j, i)| (record, j, i))
@@ -87,7 +78,13 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
         let table = Table::from_rows("Factors that depend on each other, by a Gaussian copula.", pairs)
             .text("factors", |(record, j, i)| [j, i].map(|k| name(&record.factors[k])).join(", "))
             .text("correlation", |(record, j, i)| {
-                format!("{} {}", significant(record.correlation[j][i]), measure(record))
+                let measure = match record.measure {
+                    CorrelationMeasure::Pearson => "of the values (Pearson)",
+                    CorrelationMeasure::Spearman => "of the ranks (Spearman)",
+                    CorrelationMeasure::Kendall => "of the ranks (Kendall)",
+                    CorrelationMeasure::Normal => "of the normal scores",
+                };
+                format!("{} {measure}", significant(record.correlation[j][i]))
             });
         parts.push(table.into());
     }
@@ -96,8 +93,9 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));
     parts.push(Table::pairs("Model settings.", choices).into());
     if !study.constants.is_empty() {
-        let constant = |constant: &ConstantRecord| (name(&constant.name), value(constant.value, &constant.unit));
-        let table = Table::pairs("Inputs that are fixed in the study.", study.constants.iter().map(constant));
+        let constants = study.constants.iter();
+        let constants = constants.map(|constant| (name(&constant.name), value(constant.value, &constant.unit)));
+        let table = Table::pairs("Inputs that are fixed in the study.", constants);
         parts.push(Part::Details { summary: "Fixed inputs".to_owned(), parts: vec![table.into()] });
     }
     let source = vec![Part::Code(study.source.clone())];
@@ -118,21 +116,22 @@ fn distribution(FactorDistribution { name, parameters }: &FactorDistribution, sy
 
 /// Formats a value of JSON for a reader.
 fn plain(json: &Value) -> String {
-    let more = |all: usize| if all > MAX_VALUES { format!("; … ({all} in all)") } else { String::new() };
     match json {
         Value::Null => "none".to_owned(),
         Value::Bool(true) => "yes".to_owned(),
         Value::Bool(false) => "no".to_owned(),
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
         Value::String(text) => text.clone(),
-        Value::Array(values) => {
-            values.iter().take(MAX_VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
-        }
-        Value::Object(keys) => {
-            let pairs = keys.iter().take(MAX_VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
-            pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
-        }
+        Value::Array(values) => first_values(values.iter().map(plain)),
+        Value::Object(keys) => first_values(keys.iter().map(|(key, json)| format!("{key} {}", plain(json)))),
     }
+}
+
+/// Lists values, the first ones of many.
+fn first_values(values: impl ExactSizeIterator<Item = String>) -> String {
+    let count = values.len();
+    let more = if count > MAX_VALUES { format!("; … ({count} in all)") } else { String::new() };
+    values.take(MAX_VALUES).collect::<Vec<_>>().join("; ") + &more
 }
 
 /// Says on how many runs which validity flags are raised; `None` if none is.
@@ -145,19 +144,17 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
 }
 
 /// Sets off what is said of a run: flags with the meaning of the most frequent one, and failures.
-pub(super) fn callout(result: &StudyResult) -> Option<Part> {
-    let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
-    let of_failures = of_failures(failed, result.provenance.model_runs);
-    let flags = sentence(&result.validity).map(|sentence| {
-        let most = result.validity.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+pub(super) fn callout(validity: &[ValidityRecord], failed_runs: (u64, u64)) -> Option<Part> {
+    let flags = sentence(validity).map(|sentence| {
+        let most = validity.iter().max_by(|a, b| a.share.total_cmp(&b.share));
         format!("{sentence} {}", most.map_or("", |flag| &flag.description))
     });
-    let texts: Vec<String> = flags.into_iter().chain(of_failures).collect();
+    let texts: Vec<String> = flags.into_iter().chain(of_failures(failed_runs)).collect();
     (!texts.is_empty()).then(|| Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts })
 }
 
 /// Says how many runs failed and what that means; `None` if none or all failed.
-pub(super) fn of_failures(failed: u64, all: u64) -> Option<String> {
+pub(super) fn of_failures((failed, all): (u64, u64)) -> Option<String> {
     (failed > 0 && failed < all).then(|| {
         let (failed, share) = (grouped(failed), share_of_runs(failed as f64 / all as f64));
         let all = count(all, "run", "runs");

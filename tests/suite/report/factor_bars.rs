@@ -41,7 +41,7 @@ fn an_index_without_estimate_has_no_bar() {
     let chart = shapley_chart(&result, &result.outputs[0]);
     let bars = drawn(&chart);
     assert_eq!(bars.iter().map(|bar| bar.label.as_str()).collect::<Vec<_>>(), [UNKNOWN, UNKNOWN, UNKNOWN, "0.02"]);
-    assert!(bars[0].to.is_nan() && bars[3].said == "0.02 ± 0.04");
+    assert!(bars[0].to.is_nan() && bars[3].value_text == "0.02 ± 0.04");
 
     let [a, b] = ["a", "b"].map(|label| NamedResult { result: &result, label, file: label });
     let mut file = compare_results(&a, &b).unwrap();

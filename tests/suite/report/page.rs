@@ -15,7 +15,7 @@ fn small(id: &str, chart: Chart) -> Figure {
         id: id.to_owned(),
         label: "Figure 1".to_owned(),
         title: None,
-        beside: String::new(),
+        comparison_note: String::new(),
         chart,
         stem: format!("{id}-chart"),
         data: "data.csv".to_owned(),

@@ -2,8 +2,8 @@
 
 use apportion::result::{StudyResult, Warning};
 use apportion_report::document::{Document, Part};
-use apportion_report::format::printed_half_width;
-use apportion_report::{one_output, run_document};
+use apportion_report::format::PrintedEstimate;
+use apportion_report::{Subject, output_document, run_document};
 
 use super::{result, tables};
 use crate::common::study_path;
@@ -31,10 +31,9 @@ fn the_leading_factor_is_at_the_top() {
         "Distribution of the output",
         "Scatter plots",
         "Surrogate",
-        "Try your own ranges",
         "Run time",
     ];
-    assert_eq!(titles(&page)[..8], expected);
+    assert_eq!(titles(&page)[..7], expected);
 }
 
 #[test]
@@ -133,7 +132,7 @@ fn no_index_of_the_table_has_a_larger_error_than_the_lead() {
             let said: f64 = said.split(' ').next().unwrap().parse().unwrap();
             for index in result.outputs[0].indices.iter().flatten() {
                 for record in [index.effect.first_order, index.effect.total] {
-                    let printed = printed_half_width(record).unwrap_or(0.0);
+                    let printed = PrintedEstimate::new(record).half_width().unwrap_or(0.0);
                     assert!(printed <= said, "{model} {samples}: {printed} beside {said}");
                 }
             }
@@ -142,27 +141,28 @@ fn no_index_of_the_table_has_a_larger_error_than_the_lead() {
 }
 
 #[test]
-fn one_output_of_several_or_one_series_is_a_result_of_its_own() {
+fn one_output_of_several_or_one_series_has_a_document_of_its_own() {
     let text = "model = \"expression\"\noutputs = { y = \"a + b\", still = \"3\", z = \"if(a > 0.9, ln(-1), a)\" }\n\
                 [design]\nbase_samples = 64\n[analysis]\nmax_failed = 0.5\nsecond_order = true\n[factors]\n\
                 a = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let several = result(text);
     for (name, first) in [(None, "y"), (Some("z"), "z"), (Some("nothing"), "y")] {
-        let one = one_output(&several, name);
-        assert_eq!(one.outputs.iter().map(|output| output.name.as_str()).collect::<Vec<_>>(), [first]);
-        assert!(titles(&page(&one)).contains(&"Indices"));
+        let document = output_document(&several, Subject::find(&several, name));
+        assert!(document.lead[0].starts_with(&format!("For {first}, ")), "{:?}", document.lead);
+        assert_eq!(document.lead.len(), 2);
+        assert!(titles(&document).contains(&"Indices"));
     }
     let history = std::fs::read_to_string(study_path("push-history")).unwrap().replace("4096", "64");
     let history = result(&history);
-    for (name, places) in [(Some("force_history"), 1..21), (Some("position_history"), 21..41)] {
-        let one = one_output(&history, name);
-        assert_eq!(one.outputs, history.outputs[places]);
-        let document = page(&one);
-        assert_eq!((one.series.len(), document.sections[0].id.as_str()), (1, "series-1"));
-        assert!(document.html().contains("<svg"));
+    for name in ["force_history", "position_history"] {
+        let document = output_document(&history, Subject::find(&history, Some(name)));
+        assert!(document.sections[0].title.starts_with(&name.replace('_', " ")), "{}", document.sections[0].title);
+        assert_eq!(document.sections.iter().filter(|section| section.id.starts_with("series-")).count(), 1);
+        assert!(document.sections[0].id == "series-1" && document.html().contains("<svg"));
     }
     for name in [None, Some("critical_force")] {
-        assert_eq!(one_output(&history, name).outputs, history.outputs[..1]);
+        let Some(Subject::Output(output)) = Subject::find(&history, name) else { panic!("{name:?}") };
+        assert_eq!(*output, history.outputs[0]);
     }
 }
 

@@ -14,7 +14,6 @@ use apportion_files::exchange::{
     AnswersRequest, ColumnKind, Manifest, Missing, RowReader, first_output, open_table, output_columns, read_answers,
 };
 
-use super::live::LiveArguments;
 use super::output::{OutputArguments, stem};
 use super::run::{deliver, with_inputs};
 use super::table::{TableArguments, say_of_table};
@@ -53,8 +52,6 @@ pub struct Arguments {
     #[command(flatten)]
     output: OutputArguments,
     #[command(flatten)]
-    live: LiveArguments,
-    #[command(flatten)]
     threads: Threads,
 }
 
@@ -84,7 +81,7 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
         }
         output.warnings.splice(0..0, unlikely.map(Warning::UnlikelyInTable));
     }
-    deliver(&study, &artefacts, &result, &arguments.live)
+    deliver(&study, &artefacts, &result)
 }
 
 /// The outputs of a design that `sample` wrote.

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use apportion::result::StudyResult;
 use apportion::study::Study;
 use apportion_files::{ModelKind, edited};
 use apportion_report::document::{DataFile, Document, Link, Part, Section, symbols};
-use apportion_report::{TRY, one_output, prepare_file, prepare_folder, run_document, write_atomically};
+use apportion_report::{Subject, output_document, prepare_file, prepare_folder, write_atomically};
 use askama::Template;
-use serde_json::json;
-use toml_edit::DocumentMut;
+use serde_json::{Value, json};
+use toml_edit::{DocumentMut, Item};
 
 use super::output::default_folder;
 use super::stop::on_signal;
@@ -30,43 +29,15 @@ pub struct Arguments {
     threads: Threads,
 }
 
-/// The live page next to the page of a result, which links to it.
-#[derive(Default, clap::Args)]
-pub struct LiveArguments {
-    /// Do not write the interactive page (NAME-live.html, 2 MB), which is written if a page can run the study
-    #[arg(long)]
-    no_live: bool,
-}
-
-impl LiveArguments {
-    /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
-    pub fn place_next_to(&self, document: &mut Document, result: &StudyResult) {
-        // No file that the study names is read: the document has a section on ranges only if the study names none.
-        if self.no_live || document.sections.iter().all(|section| section.id != TRY) {
-            return;
-        }
-        let setup = &result.study;
-        let path = PathBuf::from(format!("{}.toml", setup.name));
-        let study = apportion_files::parse_study(&setup.source, &path, &setup.overrides);
-        let Some(text) = study.ok().and_then(|study| own_text(&study).ok()) else { return };
-        let study = apportion_files::parse_study(&text, &path, &[]).map_err(Into::into);
-        match study.and_then(|study| page(&study, &text, result)) {
-            Ok(page) => place_next_to(document, &file_name(&setup.name), page),
-            Err(error) => say(&format!("note: no interactive page: {error}")),
-        }
-    }
-}
-
 pub fn live(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = arguments.study.load_with(&arguments.design.overrides())?;
-    own_text(&study)?;
-    let name = study.name();
-    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(file_name(name)));
+    let live = LiveStudy::new(&arguments.study.load_with(&arguments.design.overrides())?)?;
+    let name = live.study.name();
+    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(format!("{name}-live.html")));
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         prepare_folder(folder)?;
     }
     prepare_file(&path)?;
-    let page = live_page(&study, arguments.threads.number(), on_signal())?;
+    let page = live.page(arguments.threads.number(), on_signal())?;
     write_atomically(&path, page.as_bytes())?;
     say(&format!("wrote {}", path.display()));
     Ok(())
@@ -115,121 +86,142 @@ struct SectionView<'a> {
     body: String,
 }
 
+impl<'a> SectionView<'a> {
+    /// Renders a section of the document; `None` if there is no such section.
+    fn new(document: &Document, id: &'a str) -> Option<Self> {
+        let section = document.sections.iter().find(|section| section.id == id)?;
+        Some(Self { id, title: symbols(&section.title), body: document.section_html(id)? })
+    }
+}
+
 /// Builds the page of `study`, with its initial result computed on `threads` threads, unless `stop` is set.
 ///
 /// # Errors
 /// An error if a page cannot run the study, or its first run fails.
 pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
-    let text = own_text(study)?;
-    let study = apportion_files::parse_study(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
-    let result = study.runner().threads(threads).stop(stop).run()?;
-    page(&study, &text, &result)
+    LiveStudy::new(study)?.page(threads, stop)
 }
 
-/// Returns the file name of the live page of the study `name`.
-pub fn file_name(name: &str) -> String {
-    format!("{name}-live.html")
-}
-
-/// Adds the live `page` to a document, as the file `name` with a section that links to it; that section replaces the
-/// one on how to make a live page.
-pub fn place_next_to(document: &mut Document, name: &str, page: String) {
+/// Adds a live `page` to a document, as the file `name` with a section that links to it.
+pub fn add_live_page(document: &mut Document, name: &str, page: String) {
     const TITLE: &str = "Try your own ranges";
     let text = "How do the indices change if the factors vary less, or more? A page next to this one recomputes them while a \
                 range is dragged; it contains the engine of this program and needs no network.";
     let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
-    document.sections.retain(|section| section.id != TRY);
-    // Before the section on how it was made.
-    let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
-    let place = place.unwrap_or(document.sections.len());
-    document.sections.insert(place, Section::new(TRY, TITLE, vec![Part::OnPage(parts)]));
+    // Before the sections on the method.
+    let is_on_method = |section: &Section| matches!(&*section.id, "cost" | "provenance");
+    let place = document.sections.iter().position(is_on_method).unwrap_or(document.sections.len());
+    document.sections.insert(place, Section::new(LIVE_SECTION_ID, TITLE, vec![Part::OnPage(parts)]));
     document.files.push(DataFile::new(name, page));
 }
 
-/// Returns the text of a study with all changes made, for a page: with any number of base samples, without files.
-///
-/// # Errors
-/// An error if the study cannot be used in a page.
-pub fn own_text(study: &Study) -> anyhow::Result<String> {
-    let kind = ModelKind::from_name(study.subject().name());
-    let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
-    let unfit = |why: &str| Err(bad_input(format!("a page cannot run the study {}: {why}", study.name())));
-    if !kind.is_some_and(computes) {
-        return unfit("its model is neither afm nor a formula nor a known function");
+/// The anchor of the section that links to a live page.
+const LIVE_SECTION_ID: &str = "try";
+
+/// The folder of the study in a page, in which there are no files.
+const NO_FOLDER: &str = "no-folder";
+
+/// A study that a page can run: its text has all changes, and any number of base samples.
+struct LiveStudy {
+    study: Study,
+    text: String,
+}
+
+impl LiveStudy {
+    /// Creates the study of a page from any study.
+    ///
+    /// # Errors
+    /// An error if a page cannot run the study.
+    fn new(study: &Study) -> anyhow::Result<Self> {
+        let name = study.name();
+        let unfit = |why: &str| bad_input(format!("a page cannot run the study {name}: {why}"));
+        let kind = ModelKind::from_name(study.subject().name());
+        if !kind.is_some_and(is_computed_in_pages) {
+            return Err(unfit("its model is neither afm nor a formula nor a known function"));
+        }
+        let factors = study.space().factors().len();
+        if factors > MAX_FACTORS {
+            return Err(unfit(&format!("it has {factors} factors, more than {MAX_FACTORS}")));
+        }
+        let text = without_target(edited(study.source(), study.overrides())?.parse()?);
+        let path = Path::new(NO_FOLDER).join(format!("{name}.toml"));
+        let study = apportion_files::parse_study(&text, &path, &[]);
+        let study = study.map_err(|error| unfit(&format!("it needs other files ({error})")))?;
+        Ok(Self { study, text })
     }
-    let factors = study.space().factors().len();
-    if factors > MAX_FACTORS {
-        return unfit(&format!("it has {factors} factors, more than {MAX_FACTORS}"));
+
+    /// Builds the page with the result of a first run.
+    fn page(&self, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
+        let study = &self.study;
+        let result = study.runner().threads(threads).stop(stop).run()?;
+        let document = output_document(&result, Subject::find(&result, None));
+        let title = study.title().unwrap_or(study.name());
+        let ranges = ranges(&document);
+        let document = document.excerpt(&SECTIONS);
+        let page = Page {
+            page_title: title,
+            title: symbols(title),
+            lead: document.lead.iter().map(|text| symbols(text)).collect(),
+            state: format!("{} runs of the model by the program.", result.provenance.model_runs),
+            ranges,
+            sections: SECTIONS.into_iter().filter_map(|id| SectionView::new(&document, id)).collect(),
+            footer: symbols(&document.footer),
+            // A title may contain the end of the element.
+            study: json!({ "presets": self.presets()? }).to_string().replace('<', "\\u003c"),
+            style: compact(concat!(
+                include_str!("../../../report/templates/page/page.css"),
+                include_str!("../../templates/live/live.css")
+            )),
+            script: compact(concat!(
+                include_str!("../../templates/live/live.js"),
+                include_str!("../../templates/live/controls.js"),
+                include_str!("../../../report/templates/page/charts.js")
+            )),
+            beginning: include_str!("../../templates/live/begin.js"),
+            worker: include_str!("../../templates/live/worker.js"),
+            engine: ENGINE,
+            version: env!("CARGO_PKG_VERSION"),
+        };
+        Ok(page.render()?)
     }
-    let text = edited(study.source(), study.overrides())?;
-    let text = without_target(&text).unwrap_or(text);
-    // Without any files next to it.
-    let alone = Path::new("no-such-folder-of-a-page").join(format!("{}.toml", study.name()));
-    match apportion_files::parse_study(&text, &alone, &[]) {
-        Ok(_) => Ok(text),
-        Err(error) => unfit(&format!("it needs other files ({error})")),
+
+    /// Returns the studies that the page offers: this one, and those of the nanoparticle for one of these.
+    fn presets(&self) -> anyhow::Result<Vec<Value>> {
+        let (name, title) = (self.study.name(), self.study.title());
+        let mut presets = vec![preset(name, title.unwrap_or(name), &self.text)];
+        if self.study.subject().name() != ModelKind::AFM.name {
+            return Ok(presets);
+        }
+        for (name, text) in PRESETS {
+            let document: DocumentMut = text.parse()?;
+            let other = document.get("title").and_then(Item::as_str).map(str::to_owned);
+            if other.as_deref() != title {
+                let text = without_target(document);
+                presets.push(preset(name, other.as_deref().unwrap_or(name), &text));
+            }
+        }
+        Ok(presets)
     }
 }
 
-/// Removes the keys that determine the length of a run.
-fn without_target(text: &str) -> Option<String> {
-    let mut document: DocumentMut = text.parse().ok()?;
-    document.remove("accuracy");
-    if let Some(design) = document.get_mut("design").and_then(|design| design.as_table_like_mut()) {
+fn is_computed_in_pages(kind: ModelKind) -> bool {
+    kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some()
+}
+
+/// Describes a study for the script of the page.
+fn preset(name: &str, title: &str, text: &str) -> Value {
+    json!({ "name": name, "title": title, "heading": symbols(title), "text": text })
+}
+
+/// Returns the text of a study without the keys that determine the length of a run.
+fn without_target(mut study: DocumentMut) -> String {
+    study.remove("accuracy");
+    if let Some(design) = study.get_mut("design").and_then(Item::as_table_like_mut) {
         for key in ["runs", "max_runs", "max_time"] {
             design.remove(key);
         }
     }
-    Some(document.to_string())
-}
-
-fn page(study: &Study, text: &str, result: &StudyResult) -> anyhow::Result<String> {
-    // One output at a time.
-    let result = one_output(result, None);
-    let document = run_document(&result);
-    let title = study.title().unwrap_or(study.name());
-    let preset = |name: &str, title: &str, text: &str| json!({ "name": name, "title": title, "heading": symbols(title), "text": text });
-    let mut presets = vec![preset(study.name(), title, text)];
-    if study.subject().name() == ModelKind::AFM.name {
-        for (name, other) in PRESETS {
-            let Some(text) = without_target(other) else { continue };
-            let other = apportion_files::parse_study(&text, Path::new("preset.toml"), &[])?;
-            if other.title() != study.title() {
-                presets.push(preset(name, other.title().unwrap_or(name), &text));
-            }
-        }
-    }
-    let ranges = ranges(&document);
-    let document = document.excerpt(&SECTIONS);
-    let section = |id| {
-        let section = document.sections.iter().find(|section| section.id == id)?;
-        Some(SectionView { id, title: symbols(&section.title), body: document.section_html(id)? })
-    };
-    let page = Page {
-        page_title: title,
-        title: symbols(title),
-        lead: document.lead.iter().map(|text| symbols(text)).collect(),
-        state: format!("{} runs of the model by the program.", result.provenance.model_runs),
-        ranges,
-        sections: SECTIONS.into_iter().filter_map(section).collect(),
-        footer: symbols(&document.footer),
-        // A title may contain the end of the element.
-        study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
-        style: compact(concat!(
-            include_str!("../../../report/templates/page/page.css"),
-            include_str!("../../templates/live/live.css")
-        )),
-        script: compact(concat!(
-            include_str!("../../templates/live/live.js"),
-            include_str!("../../templates/live/controls.js"),
-            include_str!("../../../report/templates/page/charts.js")
-        )),
-        beginning: include_str!("../../templates/live/begin.js"),
-        worker: include_str!("../../templates/live/worker.js"),
-        engine: ENGINE,
-        version: env!("CARGO_PKG_VERSION"),
-    };
-    Ok(page.render()?)
+    study.to_string()
 }
 
 /// Removes indentation and comment lines from a script or a style, so that a page is below 2 MB.

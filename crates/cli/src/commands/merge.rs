@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::run::RunError;
 
-use super::live::LiveArguments;
 use super::output::OutputArguments;
 use super::run::{deliver, journal_path};
 use super::{DesignChanges, StudyArguments, Threads, counted, say};
@@ -21,8 +20,6 @@ pub struct Arguments {
     design: DesignChanges,
     #[command(flatten)]
     output: OutputArguments,
-    #[command(flatten)]
-    live: LiveArguments,
     #[command(flatten)]
     threads: Threads,
 }
@@ -50,7 +47,7 @@ pub fn merge(arguments: &Arguments) -> anyhow::Result<()> {
         counted(journals.len() as u64, "journal"),
         path.display()
     ));
-    deliver(&study, &artefacts, &result, &arguments.live)
+    deliver(&study, &artefacts, &result)
 }
 
 /// The journals of shards in `folder`, in the order of their names.

@@ -6,7 +6,6 @@ use apportion::result::{ReadError, parse_result};
 use apportion_base::files::read_whole;
 use apportion_report::run_document;
 
-use super::live::LiveArguments;
 use super::output::{ChartArguments, deliver};
 use super::{same_file, say};
 use crate::failure::bad_input;
@@ -20,8 +19,6 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     charts: ChartArguments,
-    #[command(flatten)]
-    live: LiveArguments,
 }
 
 pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
@@ -43,7 +40,6 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let text = String::from_utf8(bytes).map_err(|_| bad_input(format!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
-    arguments.live.place_next_to(&mut document, &result);
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
         let version = &result.provenance.apportion_version;
         say(&format!("note: the numbers are from apportion {version}; only the page and charts are from this version"));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::live::{live_page, place_next_to};
+use super::live::{add_live_page, live_page};
 use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
@@ -63,7 +63,7 @@ pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
     let mut document = document(&reproduction);
     if arguments.only.is_none() {
         // The live page begins with all eight factors.
-        place_next_to(&mut document, LIVE, live_page(&general_study(), threads, on_signal())?);
+        add_live_page(&mut document, LIVE, live_page(&general_study(), threads, on_signal())?);
     }
     deliver(&artefacts, &document)
 }

@@ -12,7 +12,6 @@ use apportion::study::Study;
 use apportion_files::exchange::{Format, write_rows};
 use apportion_report::{Artefacts, prepare_file, run_document, stream_atomically};
 
-use super::live::LiveArguments;
 use super::output::{self, OutputArguments};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
@@ -33,8 +32,6 @@ pub struct Arguments {
     /// Also write the points and outputs of all runs to a file (.csv or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
-    #[command(flatten)]
-    live: LiveArguments,
     /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
     /// of the same study is used if it exists)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
@@ -73,7 +70,7 @@ impl Arguments {
     }
 }
 
-pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<()> {
+pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Result<()> {
     if arguments.shard.is_none() {
         ranks::refuse_copies()?;
     }
@@ -96,15 +93,15 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
     let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
-    let runner = match others {
+    let runner = match mpi_ranks {
         None => runner,
-        Some(others) => {
+        Some(mpi_ranks) => {
             // A job has a rank for every core by default.
             let threads = arguments.threads.number().max(1);
-            let ranks = others.begin(&study, &arguments.study.study, threads);
+            let ranks = mpi_ranks.begin(&study, &arguments.study.study, threads);
             let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
             say(&format!("note: {ranks} ranks with {workers} each"));
-            runner.threads(threads).remote_workers(others)
+            runner.threads(threads).remote_workers(mpi_ranks)
         }
     };
     // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
@@ -117,15 +114,14 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
     if let Some((_, _, store)) = &saved {
         runner = runner.store(store);
     }
-    let failed = |error| with_journal(&study, error, journal.as_deref());
     if let Some((shard, journal)) = arguments.shard.zip(journal.as_ref()) {
         let begun = Instant::now();
-        let rows = runner.run_shard(shard).map_err(failed)?;
+        let rows = runner.run_shard(shard).map_err(|error| with_journal(&study, error, Some(journal)))?;
         meter.finish(rows, begun.elapsed().as_secs_f64());
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
         return Ok(());
     }
-    let result = runner.run().map_err(failed)?;
+    let result = runner.run().map_err(|error| with_journal(&study, error, journal.as_deref()))?;
     let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
     match &result.spending {
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
@@ -134,7 +130,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
     if let Some((path, format, store)) = &saved {
         save(&study, &result, store, path, *format)?;
     }
-    deliver(&study, &artefacts, &result, &arguments.live)
+    deliver(&study, &artefacts, &result)
 }
 
 /// The journal of the study called `name`, or of one of its shards, in `folder`.
@@ -197,17 +193,9 @@ fn study_of(arguments: &Arguments) -> anyhow::Result<Study> {
 }
 
 /// Writes the files of a result, and says what came out.
-pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult, live: &LiveArguments) -> anyhow::Result<()> {
-    let mut document = run_document(result);
-    live.place_next_to(&mut document, result);
-    output::deliver(artefacts, &document)?;
-    // An output without indices because runs failed, and not because it does not vary.
-    let is_lost = |output: &&OutputResult| {
-        let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
-        let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
-        output.indices.is_none() && output.runs_failed > 0 && too_many
-    };
-    let lost: Vec<&OutputResult> = result.outputs.iter().filter(is_lost).collect();
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult) -> anyhow::Result<()> {
+    output::deliver(artefacts, &run_document(result))?;
+    let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| is_lost(study, output)).collect();
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
     Err(anyhow!(
@@ -217,14 +205,22 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult, live:
     ))
 }
 
-/// What was done before an error is of use to the user.
+/// Whether an output has no indices because runs failed, and not because it does not vary.
+fn is_lost(study: &Study, output: &OutputResult) -> bool {
+    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
+    output.indices.is_none() && output.runs_failed > 0 && too_many
+}
+
+/// Adds to an error how to continue the run.
 fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyhow::Error {
     if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
         return error.into();
     }
-    let nothing = |journal: &Path| study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0);
     let kept = match (&error, journal.filter(|journal| journal.exists())) {
-        (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if nothing(journal) => String::new(),
+        (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if is_empty(study, journal) => {
+            String::new()
+        }
         (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
             // Rows that failed before the model gave up must be retried once the model is repaired.
             let (option, again) = match error {
@@ -240,7 +236,12 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyho
     anyhow!("{error}{kept}")
 }
 
-/// A row that failed is of use to the user by its inputs.
+/// Whether a journal has no runs of the study.
+fn is_empty(study: &Study, journal: &Path) -> bool {
+    study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0)
+}
+
+/// Adds the inputs of the failed row to an error.
 pub fn with_inputs(study: &Study, error: RunError) -> anyhow::Error {
     match &error {
         RunError::RowFailed { row, .. } => {

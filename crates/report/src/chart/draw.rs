@@ -217,6 +217,11 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
+    /// Returns the label of a point as it is drawn.
+    fn label_text(&self, label: &str) -> String {
+        self.layout.page.choose(label.to_owned(), shorten(label, LONGEST_LABEL, TICK))
+    }
+
     /// Draws the labels of points, those of larger x first.
     fn labels(&self, canvas: &mut Canvas, points: &[(&Series, &Point)]) {
         let mut shown: Vec<(&Point, (f64, f64))> =
@@ -225,13 +230,12 @@ impl<'a> Sheet<'a> {
             return;
         }
         shown.sort_by(|a, b| b.0.x.total_cmp(&a.0.x).then(b.0.y.total_cmp(&a.0.y)));
-        let text = |label: &str| self.layout.page.choose(label.to_owned(), shorten(label, LONGEST_LABEL, TICK));
         let wanted: Vec<Label> = (0..)
             .zip(&shown)
             .map(|(number, (point, at))| {
                 // Without a label, or beyond the maximum number of labels, the width is infinite, which fits nowhere.
                 let labelled = number < MAX_LABELS && !point.label.trim().is_empty();
-                let width = if labelled { TICK.width(&text(&point.label)) } else { f64::INFINITY };
+                let width = if labelled { TICK.width(&self.label_text(&point.label)) } else { f64::INFINITY };
                 Label { at: *at, width, height: TICK.cap_height() }
             })
             .collect();
@@ -247,8 +251,8 @@ impl<'a> Sheet<'a> {
                 canvas.close("g");
             }
             let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom + TICK.cap_height()) / 2.0);
-            let label = text(&point.label);
-            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().whole(&point.label));
+            let label = self.label_text(&point.label);
+            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().tooltip(&point.label));
         }
         canvas.close("g");
     }

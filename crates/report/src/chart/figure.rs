@@ -5,7 +5,7 @@ use std::fmt::Display;
 use super::model::{Bar, Chart, Mark, Panel, Shape, Stroke};
 use super::style::{BODY, Colour, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Attributes, Canvas, Px, Text, stripes};
-use super::text::{FAMILIES, percent, wrap, wrap_within};
+use super::text::{FAMILIES, wrap, wrap_within};
 
 /// Gap between a key and its name, px.
 const KEY_GAP: f64 = 6.0;
@@ -88,8 +88,8 @@ impl<'a> Figure<'a> {
         });
         // Not every browser links a picture to its title and description by itself.
         let ids = self.medium.id.map(|id| ["title", "desc"].map(|element| format!("{id}-{element}")));
-        let of_element =
-            |element: usize| ids.iter().map(|ids| ("id", &ids[element] as &dyn Display)).collect::<Vec<_>>();
+        let [title_id, description_id] =
+            [0, 1].map(|element| ids.iter().map(|ids| ("id", &ids[element] as &dyn Display)).collect::<Vec<_>>());
         let mut attributes: Vec<(&str, &dyn Display)> = Vec::new();
         if let Some([title, description]) = &ids {
             attributes.extend_from_slice(&[("aria-labelledby", title), ("aria-describedby", description)]);
@@ -104,8 +104,8 @@ impl<'a> Figure<'a> {
         }
         attributes.extend_from_slice(&[("font-family", &FAMILIES), ("fill", &INK)]);
         page.open("svg", &attributes);
-        page.content("title", &of_element(0), &self.chart.title);
-        page.content("desc", &of_element(1), &format!("{} {}", self.chart.caption, self.chart.axes()));
+        page.content("title", &title_id, &self.chart.title);
+        page.content("desc", &description_id, &format!("{} {}", self.chart.caption, self.chart.axes()));
         page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
         page.out.push_str(&self.canvas.out);
         page.close("svg");
@@ -131,8 +131,8 @@ impl<'a> Figure<'a> {
         let (mut x, mut y) = (MARGIN, self.top + 5.0 + ROW / 2.0);
         for entry in entries {
             let key = entry.key.width() + KEY_GAP;
-            let most = self.medium.width.choose(1, 3);
-            let name = wrap_within(&entry.name, right - MARGIN - key, most, BODY);
+            let max_lines = self.medium.width.choose(1, 3);
+            let name = wrap_within(&entry.name, right - MARGIN - key, max_lines, BODY);
             let length = key + name.iter().map(|line| BODY.width(line)).fold(0.0, f64::max);
             if x > MARGIN && x + length > right {
                 (x, y) = (MARGIN, y + ROW);
@@ -142,7 +142,7 @@ impl<'a> Figure<'a> {
                 y += if row == 0 { 0.0 } else { BODY.leading() };
                 let at = (x + key, y + BODY.cap_height() / 2.0);
                 let text = Text::new(line, at, BODY);
-                self.canvas.text(&if name.len() == 1 { text.whole(&entry.name) } else { text });
+                self.canvas.text(&if name.len() == 1 { text.tooltip(&entry.name) } else { text });
             }
             x += length + ENTRY_GAP;
         }
@@ -211,15 +211,11 @@ impl Chart {
                 }
             }
         }
-        let any = |test: fn(&Shape) -> bool| self.marks().any(|mark| test(&mark.shape));
-        let has_interval = |shape: &Shape| match shape {
-            Shape::Bar(bar) => bar.drawn().is_some_and(|bar| bar.interval.is_some()),
-            _ => false,
-        };
-        if any(has_interval) {
+        let mut bars = self.panels.iter().flat_map(Panel::bars).map(|(_, bar)| bar);
+        if bars.clone().any(|bar| bar.drawn().is_some_and(|bar| bar.interval.is_some())) {
             entries.push(Entry { name: "95 % interval".to_owned(), key: Key::Whisker });
         }
-        if any(|shape| matches!(shape, Shape::Bar(bar) if bar.diamond().is_some())) {
+        if bars.any(|bar| bar.diamond().is_some()) {
             entries.push(Entry { name: "published".to_owned(), key: Key::Diamond });
         }
         entries
@@ -227,31 +223,31 @@ impl Chart {
 
     /// Describes the axes of its panels; the numbers are in tables.
     pub(super) fn axes(&self) -> String {
-        let panel = |panel: &Panel| {
-            let title = if panel.title.trim().is_empty() { String::new() } else { format!("{}: ", panel.title.trim()) };
-            let vertical = match panel.y.names.is_empty() {
-                true => format!(", vertical axis {}", panel.y.title(0)),
-                false => format!(", rows {}", panel.y.names.join(", ")),
+        let mut sentences = Vec::new();
+        for Panel { title, x, y, .. } in &self.panels {
+            let title = if title.trim().is_empty() { String::new() } else { format!("{}: ", title.trim()) };
+            let vertical = match y.names.is_empty() {
+                true => format!(", vertical axis {}", y.title(0)),
+                false => format!(", rows {}", y.names.join(", ")),
             };
-            format!("{title}horizontal axis {}{vertical}.", panel.x.title(0))
-        };
-        self.panels.iter().map(panel).collect::<Vec<_>>().join(" ")
+            sentences.push(format!("{title}horizontal axis {}{vertical}.", x.title(0)));
+        }
+        sentences.join(" ")
     }
 
     /// Describes a drawn bar: names, value, interval, published value.
     pub(super) fn bar_in_words(&self, panel: &Panel, series: &str, bar: &Bar) -> String {
-        let number = |value: f64| if bar.label.is_empty() { value.to_string() } else { percent(value) };
-        let mut value = bar.said.clone();
+        let mut value = bar.value_text.clone();
         if value.is_empty() {
             if bar.from != 0.0 && bar.from != bar.to {
-                value.push_str(&format!("{} to ", number(bar.from)));
+                value.push_str(&format!("{} to ", bar.number(bar.from)));
             }
-            value.push_str(&number(bar.to));
+            value.push_str(&bar.number(bar.to));
             if let Some((low, high)) = bar.interval {
-                value.push_str(&format!(" ({} to {})", number(low), number(high)));
+                value.push_str(&format!(" ({} to {})", bar.number(low), bar.number(high)));
             }
         }
-        let published = bar.diamond().map(|value| format!(", published {}", number(value)));
+        let published = bar.diamond().map(|value| format!(", published {}", bar.number(value)));
         let row = panel.y.names.get(bar.row).map_or("", String::as_str);
         format!("{row}, {series}: {value}{}", published.unwrap_or_default())
     }

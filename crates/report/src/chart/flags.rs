@@ -16,7 +16,7 @@ const LONGEST: f64 = 240.0;
 /// A label with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flag<'a> {
-    whole: &'a str,
+    label: &'a str,
     text: String,
     /// Of the marked line, px.
     pole: f64,
@@ -30,10 +30,13 @@ pub(super) struct Flag<'a> {
 impl Flag<'_> {
     /// Returns whether one covers the other or is crossed by its pole.
     fn collides(&self, other: &Flag) -> bool {
-        let crossed =
-            |flag: &Flag, by: &Flag| by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP;
-        let covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
-        covered || crossed(self, other) || crossed(other, self)
+        let is_covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
+        is_covered || self.is_crossed_by(other) || other.is_crossed_by(self)
+    }
+
+    /// Returns whether the pole of the other one crosses it.
+    fn is_crossed_by(&self, other: &Flag) -> bool {
+        other.row >= self.row && self.from - GAP < other.pole && other.pole < self.to + GAP
     }
 }
 
@@ -52,16 +55,16 @@ pub(super) fn place<'a>(
     // From the right: the position where the next flag must end.
     let mut end = plot.right();
     let (mut right, mut left) = (Vec::new(), Vec::new());
-    for (pole, whole) in shown {
-        let text = shorten(whole, longest, TICK);
+    for (pole, label) in shown {
+        let text = shorten(label, longest, TICK);
         let width = TICK.width(&text);
         if pole + GAP + width <= end {
-            right.push(Flag { whole, text, pole, from: pole + GAP, to: pole + GAP + width, row: 0 });
+            right.push(Flag { label, text, pole, from: pole + GAP, to: pole + GAP + width, row: 0 });
         } else {
             end = pole - GAP;
-            let text = shorten(whole, longest.min(end - plot.left), TICK);
+            let text = shorten(label, longest.min(end - plot.left), TICK);
             let width = TICK.width(&text);
-            left.push(Flag { whole, text, pole, from: end - width, to: end, row: 0 });
+            left.push(Flag { label, text, pole, from: end - width, to: end, row: 0 });
         }
     }
     // In this order the pole of each flag does not touch the flags before it.
@@ -94,7 +97,7 @@ pub(super) fn draw(canvas: &mut Canvas, plot: &Plot, flags: &[Flag]) {
     canvas.close("g");
     for flag in flags {
         let at = (flag.from, plot.top - 4.0 - flag.row as f64 * ROW);
-        canvas.text(&Text::new(&flag.text, at, TICK).whole(flag.whole));
+        canvas.text(&Text::new(&flag.text, at, TICK).tooltip(flag.label));
     }
     canvas.close("g");
 }

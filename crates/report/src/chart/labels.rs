@@ -43,6 +43,15 @@ impl Area {
         Self { left: x.0.min(x.1), right: x.0.max(x.1), top: y.0.min(y.1), bottom: y.0.max(y.1) }
     }
 
+    /// Creates the area of a point.
+    fn around((x, y): (f64, f64)) -> Self {
+        Self::between((x - POINT, x + POINT), (y - POINT, y + POINT))
+    }
+
+    fn is_inside(&self, bounds: &Area) -> bool {
+        self.left >= bounds.left && self.right <= bounds.right && self.top >= bounds.top && self.bottom <= bounds.bottom
+    }
+
     /// Returns whether the two have a common interior point.
     pub fn overlaps(&self, other: &Area) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
@@ -66,40 +75,41 @@ pub(super) struct Place {
 
 /// Finds a position inside `bounds` for each label in turn; `None` if there is no room.
 pub(super) fn place(wanted: &[Label], bounds: Area) -> Vec<Option<Place>> {
-    let about = |at: f64| (at - POINT, at + POINT);
-    let points: Vec<Area> = wanted.iter().map(|label| Area::between(about(label.at.0), about(label.at.1))).collect();
+    let points: Vec<Area> = wanted.iter().map(|label| Area::around(label.at)).collect();
     let mut places: Vec<Option<Place>> = Vec::with_capacity(wanted.len());
-    for (own, label) in wanted.iter().enumerate() {
+    for (label, point) in wanted.iter().zip(&points) {
         let taken: Vec<Place> = places.iter().copied().flatten().collect();
-        let free = |place: &Place| {
-            // A point that covers the label's own point cannot be avoided.
-            let others = points.iter().filter(|area| !area.overlaps(&points[own]));
-            let area = &place.area;
-            let inside = area.left >= bounds.left
-                && area.right <= bounds.right
-                && area.top >= bounds.top
-                && area.bottom <= bounds.bottom;
-            inside
-                && !points.iter().chain(taken.iter().map(|t| &t.area)).any(|other| other.overlaps(area))
-                && !taken.iter().filter_map(|t| t.leader).any(|leader| crosses(leader, area))
-                && place.leader.is_none_or(|leader| {
-                    !others.clone().chain(taken.iter().map(|t| &t.area)).any(|other| crosses(leader, other))
+        // A point that covers the label's point cannot be avoided.
+        let others: Vec<&Area> = points.iter().filter(|area| !area.overlaps(point)).collect();
+        let mut candidates = DISTANCES
+            .iter()
+            .flat_map(|distance| DIRECTIONS.iter().map(|direction| label_place(label, *distance, *direction)));
+        places.push(candidates.find(|Place { area, leader }| {
+            area.is_inside(&bounds)
+                && !points.iter().any(|other| other.overlaps(area))
+                && !taken.iter().any(|other| other.area.overlaps(area))
+                && !taken.iter().filter_map(|other| other.leader).any(|leader| crosses(leader, area))
+                && leader.is_none_or(|leader| {
+                    !others.iter().any(|other| crosses(leader, other))
+                        && !taken.iter().any(|other| crosses(leader, &other.area))
                 })
-        };
-        let mut all = DISTANCES.iter().flat_map(|d| DIRECTIONS.iter().map(move |direction| (*d, *direction)));
-        places.push(all.find_map(|(d, direction)| Some(beside(label, d, direction)).filter(free)));
+        }));
     }
     places
 }
 
-/// Places the label at a distance in a direction; its near edge or corner touches the end of the line.
-fn beside(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
-    let (x, y) = (label.at.0 + dx * distance, label.at.1 + dy * distance);
-    let shift = |part: f64, size: f64| match part {
-        p if p > 0.0 => 0.0,
-        p if p < 0.0 => -size,
+/// Returns where a label of this size begins, relative to the end of its line in a direction.
+fn shift(direction: f64, size: f64) -> f64 {
+    match direction {
+        part if part > 0.0 => 0.0,
+        part if part < 0.0 => -size,
         _ => -size / 2.0,
-    };
+    }
+}
+
+/// Places the label at a distance in a direction; its near edge or corner touches the end of the line.
+fn label_place(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
+    let (x, y) = (label.at.0 + dx * distance, label.at.1 + dy * distance);
     let (left, top) = (x + shift(dx, label.width), y + shift(dy, label.height));
     let area =
         Area { left: left - AIR, right: left + label.width + AIR, top: top - AIR, bottom: top + label.height + AIR };

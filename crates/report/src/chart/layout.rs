@@ -69,38 +69,50 @@ impl<'a> Layout<'a> {
         let rows = Rows::new(panels, page);
         let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, rows, page)).collect();
         let y = y_scales(chart, &heights);
-        let with_numbers = || panels.iter().zip(&y).zip(&heights).filter(|((panel, _), _)| !panel.has_rows());
-        let titles = with_numbers().map(|((panel, y), height)| title_room(&panel.y.title(y.exponent), *height));
-        let ticks = with_numbers().map(|((_, y), _)| tick_room(y)).fold(0.0, f64::max);
+        let (mut titles, mut ticks) = (0.0_f64, 0.0_f64);
+        for ((panel, y), height) in panels.iter().zip(&y).zip(&heights).filter(|((panel, _), _)| !panel.has_rows()) {
+            titles = titles.max(title_room(&panel.y.title(y.exponent), *height));
+            ticks = ticks.max(tick_room(y));
+        }
         let names = panels.iter().flat_map(|panel| &panel.y.names).map(|name| TICK.width(&row_name(name)) + TEXT_GAP);
         let names = page.choose(names.fold(0.0, f64::max), 0.0);
-        let left = MARGIN + (titles.fold(0.0, f64::max) + ticks).max(names);
-        let width = |(left, right, gap): (f64, f64, f64)| {
-            ((page.px() - left - right - (columns - 1) as f64 * gap) / columns as f64).max(10.0)
-        };
-        // Half of an outer tick label may extend beyond the plot.
-        let x = x_scales(chart, width((left, MARGIN, GAP)));
-        let labels = || panels.iter().zip(&x).filter(|(panel, _)| panel.x.names.is_empty()).map(|(_, x)| &x.ticks);
-        let half = |label: &str| TICK.width(label) / 2.0;
-        let first = labels().filter_map(|ticks| Some(half(&ticks.first()?.label) + 2.0)).fold(0.0, f64::max);
-        let last = labels().filter_map(|ticks| Some(half(&ticks.last()?.label) + 4.0)).fold(0.0, f64::max);
-        let widest = labels().flatten().map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
-        let (left, right, gap) = (left.max(first), MARGIN.max(last), GAP.max(widest + 8.0));
-        let width = width((left, right, gap));
+        let left = MARGIN + (titles + ticks).max(names);
+        let (mut left, mut right, mut gap) = (left, MARGIN, GAP);
+        for (_, x) in panels
+            .iter()
+            .zip(x_scales(chart, column_width(page.px() - left - right, columns, gap)))
+            .filter(|(panel, _)| panel.x.names.is_empty())
+        {
+            let widths: Vec<f64> = x.ticks.iter().map(|tick| TICK.width(&tick.label)).collect();
+            // Half of an outer tick label may extend beyond the plot.
+            left = widths.first().map_or(left, |width| left.max(width / 2.0 + 2.0));
+            right = widths.last().map_or(right, |width| right.max(width / 2.0 + 4.0));
+            gap = widths.into_iter().map(|width| width + 8.0).fold(gap, f64::max);
+        }
+        let width = column_width(page.px() - left - right, columns, gap);
         let cells = panels.iter().zip(x_scales(chart, width)).zip(y).zip(heights);
         let cells = cells.map(|(((panel, x), y), height)| Cell { panel, x, y, height }).collect();
         Self { page, columns, cells, left, width, gap, y_title: left - ticks - TICK_GAP - 4.0, rows }
     }
 }
 
+/// Returns the width of each of several columns within `width`, px.
+fn column_width(width: f64, columns: usize, gap: f64) -> f64 {
+    ((width - (columns - 1) as f64 * gap) / columns as f64).max(10.0)
+}
+
 impl Rows {
     fn new(panels: &[Panel], page: ChartWidth) -> Self {
-        let bars = || panels.iter().flat_map(Panel::bars);
-        let is_labelled = bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some());
+        let mut bars = panels.iter().flat_map(Panel::bars);
+        let is_labelled = bars.any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some());
         let lane = if is_labelled { LABELLED_LANE } else { LANE };
-        let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
-        let most = panels.iter().flat_map(|panel| (0..panel.y.names.len()).map(move |row| in_row(panel, row))).max();
-        let bars = (most.unwrap_or(0) as f64 * lane).max(MIN_BARS);
+        let mut max_bars = 0;
+        for panel in panels {
+            for row in 0..panel.y.names.len() {
+                max_bars = max_bars.max(panel.bars().filter(|(_, bar)| bar.row == row).count());
+            }
+        }
+        let bars = (max_bars as f64 * lane).max(MIN_BARS);
         Self { pitch: bars + ROW_GAP + page.choose(0.0, HEADING), bars }
     }
 }
@@ -112,7 +124,7 @@ impl Panel {
     }
 
     /// Iterates over the bars with their marks.
-    pub(super) fn bars(&self) -> impl Iterator<Item = (&Mark, &Bar)> {
+    pub(super) fn bars(&self) -> impl Iterator<Item = (&Mark, &Bar)> + Clone {
         self.marks.iter().filter_map(|mark| match &mark.shape {
             Shape::Bar(bar) => Some((mark, bar)),
             _ => None,
@@ -152,18 +164,20 @@ impl Panel {
 
     /// Returns the coordinates of all marks; a missing coordinate is 0.
     fn places(&self) -> Vec<(f64, f64)> {
-        let level = |x: f64| (x, 0.0);
-        let of_mark = |mark: &Mark| match &mark.shape {
-            Shape::Line(points) | Shape::Dots(points) => points.clone(),
-            Shape::Band(edges) => edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect(),
-            Shape::Point(point) => vec![(point.x, point.y)],
-            Shape::Bar(bar) => match bar.drawn() {
-                Some(bar) => bar.ends().into_iter().map(level).collect(),
-                None => bar.diamond().into_iter().map(level).collect(),
-            },
-            Shape::Tile(_) | Shape::Rule(..) => Vec::new(),
-        };
-        self.marks.iter().flat_map(of_mark).collect()
+        let mut places = Vec::new();
+        for mark in &self.marks {
+            match &mark.shape {
+                Shape::Line(points) | Shape::Dots(points) => places.extend_from_slice(points),
+                Shape::Band(edges) => places.extend(edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)])),
+                Shape::Point(point) => places.push((point.x, point.y)),
+                Shape::Bar(bar) => {
+                    let ends = bar.drawn().map_or_else(|| Vec::from_iter(bar.diamond()), |bar| bar.ends());
+                    places.extend(ends.into_iter().map(|x| (x, 0.0)));
+                }
+                Shape::Tile(_) | Shape::Rule(..) => (),
+            }
+        }
+        places
     }
 
     fn x_values(&self) -> Vec<f64> {
@@ -232,12 +246,12 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     }
     let mut values: Vec<f64> = panels.iter().flat_map(Panel::x_values).collect();
     values.extend(room_for_labels(panels, &values, width));
-    let marks = || panels.iter().flat_map(|panel| &panel.marks);
+    let mut marks = panels.iter().flat_map(|panel| &panel.marks);
     let air = match () {
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_points) => 0.06,
         // Points need free room at the ends; lines run from edge to edge.
-        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_)) || mark.series.stroke.has_points()) => 0.02,
+        () if marks.any(|mark| matches!(mark.shape, Shape::Dots(_)) || mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
     };
     let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, 50.0, 7) };
@@ -247,15 +261,14 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
 /// Returns the value up to which an axis must extend for the labels after its bars.
 fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> {
     let low = values.iter().copied().filter_map(drawable).reduce(f64::min)?;
-    let beyond = |right: f64, room: f64| low + (right - low) * width / (width - room);
     let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
         let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
         // The label may be behind the published value.
         let (right, diamond) = (bar.right(), bar.diamond().unwrap_or(f64::NEG_INFINITY));
-        let behind = beyond(right, room + LABEL_ROOM);
+        let behind = low + (right - low) * width / (width - (room + LABEL_ROOM));
         let right = if diamond < behind { right.max(diamond) } else { right };
-        drawable(beyond(right, room))
+        drawable(low + (right - low) * width / (width - room))
     });
     needed.reduce(f64::max)
 }
@@ -283,9 +296,9 @@ fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
     Scale::over(values, ScaleOptions { spacing: first.y.spacing, air: 0.05, steps: steps(height, 45.0, 6) })
 }
 
-/// Returns the approximate number of steps between ticks of an axis: one for so many px, but at most `most`.
-fn steps(length: f64, px: f64, most: usize) -> usize {
-    ((length / px).round() as usize).clamp(3, most)
+/// Returns the approximate number of steps between ticks of an axis: one for so many px, but at most `max_steps`.
+fn steps(length: f64, px: f64, max_steps: usize) -> usize {
+    ((length / px).round() as usize).clamp(3, max_steps)
 }
 
 /// Returns the name of a row as written next to the plot.

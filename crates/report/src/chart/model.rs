@@ -151,23 +151,22 @@ impl Panel {
         Self { title: title.into(), ..self }
     }
 
-    /// Sorts the rows by falling keys and keeps only the first `most` of them.
-    pub fn ranked(mut self, keys: &[f64], most: usize) -> Self {
-        let key = |row: usize| keys.get(row).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
-        let mut order: Vec<usize> = (0..self.y.names.len()).collect();
-        order.sort_by(|&a, &b| key(b).total_cmp(&key(a)));
-        order.truncate(most);
-        let place = |row: &mut usize| match order.iter().position(|other| other == row) {
-            Some(place) => {
-                *row = place;
-                true
-            }
-            None => false,
-        };
-        self.marks.retain_mut(|mark| match &mut mark.shape {
-            Shape::Bar(bar) => place(&mut bar.row),
-            Shape::Tile(tile) => place(&mut tile.row),
-            _ => true,
+    /// Sorts the rows by falling keys and keeps only the first `max_rows` of them.
+    pub fn ranked(mut self, keys: &[f64], max_rows: usize) -> Self {
+        let keys = keys.iter().map(|key| if key.is_nan() { f64::NEG_INFINITY } else { *key });
+        let mut order: Vec<(usize, f64)> =
+            (0..self.y.names.len()).zip(keys.chain(std::iter::repeat(f64::NEG_INFINITY))).collect();
+        order.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let order: Vec<usize> = order.into_iter().take(max_rows).map(|(row, _)| row).collect();
+        self.marks.retain_mut(|mark| {
+            let row = match &mut mark.shape {
+                Shape::Bar(bar) => &mut bar.row,
+                Shape::Tile(tile) => &mut tile.row,
+                _ => return true,
+            };
+            let place = order.iter().position(|other| other == row);
+            *row = place.unwrap_or(*row);
+            place.is_some()
         });
         self.y.names = order.iter().map(|&row| self.y.names[row].clone()).collect();
         self
@@ -248,7 +247,7 @@ pub struct Bar {
     /// Text after it; in place of a bar that cannot be drawn, the reason.
     pub label: String,
     /// Its value in words with its error; empty for plain numbers.
-    pub said: String,
+    pub value_text: String,
     /// The value from which the bar has the colour of another series.
     pub beyond: Option<(f64, Series)>,
 }
@@ -272,6 +271,11 @@ impl Bar {
         let (split, series) = self.beyond.as_ref()?;
         let split = drawable(*split)?.clamp(self.from.min(self.to), self.from.max(self.to));
         (split != self.to).then_some((split, self.to, series))
+    }
+
+    /// Formats one of its values: a labelled bar is in percent.
+    pub(super) fn number(&self, value: f64) -> String {
+        if self.label.is_empty() { value.to_string() } else { percent(value) }
     }
 
     /// Returns the diamond, if it can be drawn.

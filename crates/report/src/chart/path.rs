@@ -25,16 +25,21 @@ pub(super) fn thin(run: &[Point]) -> Vec<Point> {
 /// Keeps, of neighbours in one column, the first, the lowest, the highest and the last: the line through them covers
 /// the same pixels. It bounds the work of [`straighten`].
 fn uncrowd(run: &[Point]) -> Vec<Point> {
-    let column = |p: &Point| (p.0 / COLUMN).floor();
     let mut kept = Vec::new();
-    for crowd in run.chunk_by(|a, b| column(a) == column(b)) {
+    for crowd in run.chunk_by(|a, b| (a.0 / COLUMN).floor() == (b.0 / COLUMN).floor()) {
         if crowd.len() <= 4 {
             kept.extend_from_slice(crowd);
             continue;
         }
-        let by_y = |a: &usize, b: &usize| crowd[*a].1.total_cmp(&crowd[*b].1);
-        let lowest = (0..crowd.len()).min_by(by_y).unwrap_or(0);
-        let highest = (0..crowd.len()).max_by(by_y).unwrap_or(0);
+        let (mut lowest, mut highest) = (0, 0);
+        for (place, point) in crowd.iter().enumerate() {
+            if point.1.total_cmp(&crowd[lowest].1).is_lt() {
+                lowest = place;
+            }
+            if point.1.total_cmp(&crowd[highest].1).is_ge() {
+                highest = place;
+            }
+        }
         let mut at = [0, lowest, highest, crowd.len() - 1];
         at.sort_unstable();
         kept.extend(at.iter().enumerate().filter(|&(i, k)| i == 0 || at[i - 1] != *k).map(|(_, &k)| crowd[k]));
@@ -51,9 +56,9 @@ fn straighten(run: &[Point]) -> Vec<Point> {
     let mut open = vec![(0, run.len() - 1)];
     while let Some((from, to)) = open.pop() {
         (needed[from], needed[to]) = (true, true);
-        let off = |k: usize| distance(run[k], (run[from], run[to]));
-        let worst = (from + 1..to).max_by(|&a, &b| off(a).total_cmp(&off(b)));
-        if let Some(k) = worst.filter(|&k| off(k) > VISIBLE) {
+        let distances = (from + 1..to).map(|k| (k, distance(run[k], (run[from], run[to]))));
+        let worst = distances.max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, _)) = worst.filter(|(_, distance)| *distance > VISIBLE) {
             open.extend([(from, k), (k, to)]);
         }
     }

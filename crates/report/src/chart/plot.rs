@@ -42,7 +42,7 @@ impl Plot {
     pub fn title(&self, canvas: &mut Canvas, title: &str, rise: f64, width: ChartWidth) {
         let (left, room) = width.choose((self.left, self.width), (MARGIN, width.px() - 2.0 * MARGIN));
         let line = shorten(title, room, PANEL_TITLE);
-        canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
+        canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).tooltip(title));
     }
 
     /// Draws horizontal grid lines, and the labels of the vertical axis where no neighbour has them.

@@ -80,11 +80,9 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
     let scale = if is_paper { PAPER_DPI / CSS_DPI } else { PNG_SCALE };
     let width = (f64::from(tree.size().width()) * scale).ceil();
     let height = (f64::from(tree.size().height()) * scale).ceil();
-    let too_large = || PictureError::TooLarge { width, height };
-    if width * height > MAX_PIXELS {
-        return Err(too_large());
-    }
-    let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
+    let size = Some((width, height)).filter(|(width, height)| width * height <= MAX_PIXELS);
+    let pixels = size.and_then(|(width, height)| Pixmap::new(width as u32, height as u32));
+    let mut pixels = pixels.ok_or(PictureError::TooLarge { width, height })?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixels.as_mut());
     Ok(encoded(&pixels, scale * CSS_DPI)?)

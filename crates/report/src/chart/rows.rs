@@ -37,10 +37,10 @@ impl<'a> Sheet<'a> {
             canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
             // On a phone the names of the rows stand above their bars, in gaps of the line.
             let half = self.layout.rows.bars / 2.0 + 1.0;
-            let of_row = |row| (self.middle(row) - half, self.middle(row) + half);
-            let whole = vec![(self.plot.top, self.plot.bottom())];
-            let ends = self.layout.page.choose(whole, rows.clone().map(of_row).collect());
-            ends.into_iter().for_each(|(from, to)| canvas.line((x, from), (x, to)));
+            let gapped = rows.clone().map(|row| (self.middle(row) - half, self.middle(row) + half)).collect();
+            for (from, to) in self.layout.page.choose(vec![(self.plot.top, self.plot.bottom())], gapped) {
+                canvas.line((x, from), (x, to));
+            }
             canvas.close("g");
         }
         self.published(canvas, &lanes);
@@ -68,13 +68,10 @@ impl<'a> Sheet<'a> {
         let in_row: Vec<(&'a Mark, &'a Bar)> = panel.bars().filter(|(_, bar)| bar.row == row).collect();
         let height = self.layout.rows.bars / in_row.len().max(1) as f64;
         let top = self.middle(row) - self.layout.rows.bars / 2.0;
-        let lane = |(number, (mark, bar)): (usize, &(&'a Mark, &'a Bar))| Lane {
-            series: &mark.series,
-            bar,
-            top: top + number as f64 * height,
-            height,
-        };
-        in_row.iter().enumerate().map(lane).collect()
+        let lanes = in_row.iter().enumerate();
+        lanes
+            .map(|(number, (mark, bar))| Lane { series: &mark.series, bar, top: top + number as f64 * height, height })
+            .collect()
     }
 
     fn bars(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
@@ -82,8 +79,8 @@ impl<'a> Sheet<'a> {
         for lane in lanes {
             let Some(bar) = lane.bar.drawn() else { continue };
             let other = bar.of_other();
-            let own = (bar.from, other.map_or(bar.to, |(split, ..)| split), lane.series);
-            for (from, to, series) in std::iter::once(own).chain(other) {
+            let first = (bar.from, other.map_or(bar.to, |(split, ..)| split), lane.series);
+            for (from, to, series) in std::iter::once(first).chain(other) {
                 let Some((left, right)) = self.x(from).zip(self.x(to)) else { continue };
                 let fill = series.colour.hex();
                 let words = self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar);
@@ -144,16 +141,23 @@ impl<'a> Sheet<'a> {
     }
 
     fn intervals(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
-        let of_lane = |lane: &Lane<'_>| {
-            let (low, high) = lane.bar.drawn().and_then(|bar| bar.interval)?;
-            Some((self.x(low).zip(self.x(high))?, lane.middle(), (lane.height - 2.0).min(7.0)))
-        };
-        let of_bars: Vec<_> = lanes.iter().filter_map(of_lane).collect();
+        let mut drawn = Vec::new();
+        for lane in lanes {
+            if let Some((low, high)) = lane.bar.drawn().and_then(|bar| bar.interval)
+                && let Some(ends) = self.x(low).zip(self.x(high))
+            {
+                drawn.push((ends, lane));
+            }
+        }
         canvas.open("g", &[("class", &"rims")]);
-        of_bars.iter().for_each(|&(ends, y, _)| canvas.rim(ends, y));
+        for (ends, lane) in &drawn {
+            canvas.rim(*ends, lane.middle());
+        }
         canvas.close("g");
         canvas.open("g", &[("class", &"whiskers")]);
-        of_bars.iter().for_each(|&(ends, y, cap)| canvas.whisker(ends, y, cap));
+        for (ends, lane) in drawn {
+            canvas.whisker(ends, lane.middle(), (lane.height - 2.0).min(7.0));
+        }
         canvas.close("g");
     }
 
@@ -206,10 +210,10 @@ impl<'a> Sheet<'a> {
             // With a white rim, since a rule may run through it.
             let line = shorten(name, self.layout.page.px() - 2.0 * MARGIN, TICK);
             let baseline = middle - self.layout.rows.bars / 2.0 - 4.0;
-            canvas.text(&Text::new(&line, (MARGIN, baseline), TICK).halo().whole(name));
+            canvas.text(&Text::new(&line, (MARGIN, baseline), TICK).halo().tooltip(name));
         } else if self.is_first_column {
             let at = (self.plot.left - TEXT_GAP, baseline);
-            canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).whole(name));
+            canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).tooltip(name));
         }
     }
 }

@@ -46,6 +46,14 @@ pub(super) struct Tick {
     pub label: String,
 }
 
+impl Tick {
+    /// Returns whether it is at a power of ten.
+    fn is_decade(&self) -> bool {
+        let power = libm::log10(self.value);
+        (power - power.round()).abs() < 1e-9
+    }
+}
+
 impl Scale {
     /// Creates a scale for all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
     pub fn over(values: impl IntoIterator<Item = f64>, options: ScaleOptions) -> Self {
@@ -90,43 +98,47 @@ impl Scale {
     /// Removes labels that overlap on an axis `length` px long; their grid lines stay. Labels of powers of ten, and of
     /// zero, are removed last.
     pub fn with_room(mut self, length: f64) -> Self {
-        let clear = |labelled: &Vec<Tick>| {
-            labelled.windows(2).all(|pair| {
-                let [from, to] = [0, 1].map(|end| self.place(pair[end].value).map_or(f64::NAN, |place| place * length));
-                let widths = (TICK.width(&pair[0].label) + TICK.width(&pair[1].label)) / 2.0;
-                to - from >= widths + LABEL_GAP
-            })
-        };
-        if clear(&self.ticks) {
+        if self.has_room(&self.ticks, length) {
             return self;
         }
-        let is_decade = |tick: &&Tick| (libm::log10(tick.value) - libm::log10(tick.value).round()).abs() < 1e-9;
-        let mut ground: Vec<&Tick> = match self.spacing {
+        let mut ground = match self.spacing {
             Spacing::Linear => Vec::new(),
-            Spacing::Logarithmic => self.ticks.iter().filter(is_decade).collect(),
+            Spacing::Logarithmic => self.ticks.iter().filter(|tick| tick.is_decade()).cloned().collect(),
         };
         if ground.is_empty() {
-            ground = self.ticks.iter().collect();
+            ground.clone_from(&self.ticks);
         }
         let zero = ground.iter().position(|tick| tick.value == 0.0).unwrap_or(0);
-        let every = |step: usize| -> Vec<Tick> {
-            let kept = ground.iter().enumerate().filter(|(number, _)| number.abs_diff(zero) % step == 0);
-            kept.map(|(_, tick)| (*tick).clone()).collect()
-        };
-        let kept = (1..=ground.len()).map(every).find(clear).unwrap_or_default();
-        let bare =
-            self.ticks.iter().map(|tick| tick.value).filter(|value| kept.iter().all(|tick| tick.value != *value));
-        self.minor.extend(bare.collect::<Vec<_>>());
+        let mut kept = ground.clone();
+        for step in 2..=ground.len() + 1 {
+            if self.has_room(&kept, length) {
+                break;
+            }
+            let places = (0..ground.len()).filter(|place| place.abs_diff(zero) % step == 0);
+            kept = places.map(|place| ground[place].clone()).collect();
+        }
+        for Tick { value, .. } in std::mem::take(&mut self.ticks) {
+            if kept.iter().all(|tick| tick.value != value) {
+                self.minor.push(value);
+            }
+        }
         self.ticks = kept;
         self
     }
 
+    /// Returns whether these labels do not overlap on an axis `length` px long.
+    fn has_room(&self, labelled: &[Tick], length: f64) -> bool {
+        labelled.windows(2).all(|pair| {
+            let [from, to] = [0, 1].map(|end| self.place(pair[end].value).map_or(f64::NAN, |place| place * length));
+            let widths = (TICK.width(&pair[0].label) + TICK.width(&pair[1].label)) / 2.0;
+            to - from >= widths + LABEL_GAP
+        })
+    }
+
     fn linear(range: (f64, f64), options: ScaleOptions) -> Self {
         let (low, high) = widened(range);
-        let aired = |end: f64, air: f64| {
-            if end == 0.0 { end } else { end + air * (high - low) }
-        };
-        let (low, high) = (aired(low, -options.air), aired(high, options.air));
+        let air = options.air * (high - low);
+        let (low, high) = (if low == 0.0 { low } else { low - air }, if high == 0.0 { high } else { high + air });
         let step = Step::near((high - low) / options.steps.max(1) as f64);
         let first = (low / step.size() - 1e-9).ceil() as i64;
         let last = (high / step.size() + 1e-9).floor() as i64;
@@ -155,8 +167,7 @@ impl Scale {
             return Self { spacing: Spacing::Logarithmic, ..linear };
         }
         let decades = from.floor() as i32..=to.floor() as i32;
-        let inside = |v: f64| v >= low && v <= high;
-        let at = |decade: i32, digit: i32| f64::from(digit) * 10f64.powi(decade);
+        let shown = low..=high;
         let labelled: &[i32] = if to - from < 2.0 { &[1, 2, 5] } else { &[1] };
         let every = ((to - from) / 8.0).ceil().max(1.0) as i32;
         let plain = decades.clone().all(|decade| (-3..=4).contains(&decade));
@@ -164,13 +175,13 @@ impl Scale {
             .clone()
             .filter(|decade| decade.rem_euclid(every) == 0)
             .flat_map(|decade| labelled.iter().map(move |&digit| (decade, digit)))
-            .filter(|&(decade, digit)| inside(at(decade, digit)))
-            .map(|(decade, digit)| Tick { value: at(decade, digit), label: decade_label(decade, digit, plain) })
+            .filter(|&(decade, digit)| shown.contains(&decimal(decade, digit)))
+            .map(|(decade, digit)| Tick { value: decimal(decade, digit), label: decade_label(decade, digit, plain) })
             .collect();
         // Finer lines only where they are not dense.
         let minor = match every {
             1 if to - from < 3.3 => {
-                decades.flat_map(|d| (2..10).map(move |n| at(d, n))).filter(|&v| inside(v)).collect()
+                decades.flat_map(|d| (2..10).map(move |n| decimal(d, n))).filter(|v| shown.contains(v)).collect()
             }
             _ => Vec::new(),
         };
@@ -235,6 +246,10 @@ fn widened((low, high): (f64, f64)) -> (f64, f64) {
 /// Returns zero for magnitudes that are readable, else the multiple of three that makes them so.
 fn common_exponent(magnitude: f64) -> i32 {
     if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((libm::log10(magnitude) + 1e-9) / 3.0).floor() as i32 }
+}
+
+fn decimal(decade: i32, digit: i32) -> f64 {
+    f64::from(digit) * 10f64.powi(decade)
 }
 
 fn decade_label(decade: i32, digit: i32, plain: bool) -> String {

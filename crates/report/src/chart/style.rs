@@ -189,8 +189,8 @@ impl Colour {
 
     /// Returns whether letters on it must be light: where these have more contrast than dark ones.
     pub(super) fn is_dark(self) -> bool {
-        let own = luminance(self.hex()) + 0.05;
-        1.05 / own > own / (luminance(INK) + 0.05)
+        let background = luminance(self.hex()) + 0.05;
+        1.05 / background > background / (luminance(INK) + 0.05)
     }
 
     /// Returns the outline of a point as path data about its middle.
@@ -204,9 +204,9 @@ impl Colour {
 
 /// Returns the relative luminance of a colour (WCAG 2.2).
 fn luminance(hex: &str) -> f64 {
-    let channel = |at: usize| {
-        let part = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap_or(0)) / 255.0;
+    let [red, green, blue] = [1, 3, 5].map(|place| {
+        let part = f64::from(u8::from_str_radix(&hex[place..place + 2], 16).unwrap_or(0)) / 255.0;
         if part <= 0.04045 { part / 12.92 } else { libm::pow((part + 0.055) / 1.055, 2.4) }
-    };
-    0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    });
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }

@@ -45,13 +45,13 @@ pub(super) struct Text<'a> {
     fill: &'static str,
     turn: f64,
     halo: bool,
-    whole: Option<&'a str>,
+    tooltip: Option<&'a str>,
 }
 
 impl<'a> Text<'a> {
     /// Creates dark text that starts at `at`, a point of its baseline.
     pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
-        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, whole: None }
+        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, tooltip: None }
     }
 
     pub fn anchor(self, anchor: Anchor) -> Self {
@@ -73,8 +73,8 @@ impl<'a> Text<'a> {
     }
 
     /// Sets the unshortened text as the tooltip.
-    pub fn whole(self, whole: &'a str) -> Self {
-        Self { whole: (whole != self.content).then_some(whole), ..self }
+    pub fn tooltip(self, tooltip: &'a str) -> Self {
+        Self { tooltip: (tooltip != self.content).then_some(tooltip), ..self }
     }
 }
 
@@ -145,8 +145,8 @@ impl Canvas {
         self.start("text", &attributes);
         self.out.push('>');
         self.words(text);
-        if let Some(whole) = text.whole {
-            self.push(format_args!("<title>{}</title>", escaped(whole)));
+        if let Some(tooltip) = text.tooltip {
+            self.push(format_args!("<title>{}</title>", escaped(tooltip)));
         }
         self.out.push_str("</text>\n");
     }
@@ -188,30 +188,32 @@ impl Canvas {
 
 /// Formats text as XML content or attribute value; characters that XML forbids become U+FFFD.
 fn escaped(text: &str) -> String {
-    let allowed = |c: char| match c {
+    let allowed = text.chars().map(|c| match c {
         '\t' | '\n' => c,
         '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => char::REPLACEMENT_CHARACTER,
         _ => c,
-    };
-    let text = text.chars().map(allowed).collect::<String>().replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;").replace('\'', "&apos;")
+    });
+    let text = allowed.collect::<String>().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&apos;")
 }
 
 /// Half the diagonal of a diamond, px.
 pub(super) const HALF_DIAMOND: f64 = 4.2;
 
+/// Formats a rectangle as path data.
+fn rectangle((left, right): (f64, f64), (top, bottom): (f64, f64)) -> String {
+    format!("M{} {}H{}V{}H{}z", Px(left), Px(top), Px(right), Px(bottom), Px(left))
+}
+
 /// Returns the stripes of a bar of a dashed or dotted series as path data, for print in grey; `None` for a full bar.
 pub(super) fn stripes((left, right): (f64, f64), (top, bottom): (f64, f64), stroke: Stroke) -> Option<String> {
     const STEP: f64 = 4.5;
-    let area = |(left, right): (f64, f64), (top, bottom): (f64, f64)| {
-        format!("M{} {}H{}V{}H{}z", Px(left), Px(top), Px(right), Px(bottom), Px(left))
-    };
     let third = (bottom - top) / 3.0;
     let level = [(top, bottom - 2.0 * third), (top + 2.0 * third, bottom)];
     let upright = (0..).map(|stripe| right - STEP * f64::from(stripe)).take_while(|x| *x > left);
     match stroke {
-        Stroke::Dashed => Some(upright.map(|x| area(((x - 0.6 * STEP).max(left), x), (top, bottom))).collect()),
-        Stroke::Dotted => Some(level.map(|y| area((left, right), y)).concat()),
+        Stroke::Dashed => Some(upright.map(|x| rectangle(((x - 0.6 * STEP).max(left), x), (top, bottom))).collect()),
+        Stroke::Dotted => Some(level.map(|y| rectangle((left, right), y)).concat()),
         _ => None,
     }
 }
@@ -243,8 +245,8 @@ impl Canvas {
     pub fn dots(&mut self, dots: &[(f64, f64)], colour: Colour) {
         let mut d = String::with_capacity(14 * dots.len());
         for (x, y) in dots {
-            let tenth = |v: &f64| Px((10.0 * v).round() / 10.0);
-            d.push_str(&format!("M{} {}h0", tenth(x), tenth(y)));
+            let [x, y] = [x, y].map(|length| Px((10.0 * length).round() / 10.0));
+            d.push_str(&format!("M{x} {y}h0"));
         }
         self.leaf(
             "path",

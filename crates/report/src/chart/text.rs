@@ -43,19 +43,22 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
         return line;
     }
     let mut used = face.width("…");
-    let fits = |c: &char| {
+    let mut kept = String::new();
+    for c in line.chars() {
         used += face.width(c.encode_utf8(&mut [0; 4]));
-        used <= width
-    };
-    let kept: String = line.chars().take_while(fits).collect();
+        if used > width {
+            break;
+        }
+        kept.push(c);
+    }
     format!("{}…", kept.trim_end())
 }
 
-/// Breaks text into at most `most` lines no wider than `width` px; the last one is shortened if there is more.
-pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Vec<String> {
+/// Breaks text into at most `max_lines` lines no wider than `width` px; the last one is shortened if there is more.
+pub(super) fn wrap_within(text: &str, width: f64, max_lines: usize, face: Face) -> Vec<String> {
     let mut lines = wrap(text, width, face);
-    if lines.len() > most {
-        let rest = lines.split_off(most.saturating_sub(1)).join(" ");
+    if lines.len() > max_lines {
+        let rest = lines.split_off(max_lines.saturating_sub(1)).join(" ");
         lines.push(shorten(&rest, width, face));
     }
     lines

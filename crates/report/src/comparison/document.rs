@@ -37,11 +37,11 @@ pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
 
 /// Describes the two results, the differences of their studies, and what only one of them has.
 fn sides(file: &ComparisonFile) -> Vec<Part> {
-    let side = |letter: &str, side: &ComparedSide| {
-        let title = side.title.as_ref().map_or_else(String::new, |title| format!(", {title}"));
-        Part::Text(format!("{letter}: {}{title} ({})", side.label, side.file))
-    };
-    let mut parts = vec![side("A", &file.a), side("B", &file.b)];
+    let mut parts = Vec::new();
+    for (letter, ComparedSide { label, title, file, .. }) in [("A", &file.a), ("B", &file.b)] {
+        let title = title.as_ref().map_or_else(String::new, |title| format!(", {title}"));
+        parts.push(Part::Text(format!("{letter}: {label}{title} ({file})")));
+    }
     if !file.settings.is_empty() {
         let settings = Table::from_rows("Differences between the studies.", &file.settings)
             .text("what differs", |setting| &setting.what)
@@ -62,14 +62,10 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
     for (letter, reason) in ["A", "B"].into_iter().zip(&output.reasons) {
         parts.extend(reason.as_ref().map(|reason| Part::no_indices(format!("There are none in {letter}: {reason}."))));
     }
-    let said = |(estimate, interval): (f64, Option<Interval>)| match interval {
-        Some(_) => give_or_take(Estimate { estimate, interval }),
-        None => significant(estimate),
-    };
     let moments = [("Mean", output.mean, output.mean_interval), ("Standard deviation", output.sd, [None; 2])];
     for (what, of, [of_a, of_b]) in moments {
         if let [Some(a), Some(b)] = of {
-            parts.push(Part::Text(format!("{what}: A {}, B {}.", said((a, of_a)), said((b, of_b)))));
+            parts.push(Part::Text(format!("{what}: A {}, B {}.", moment(a, of_a), moment(b, of_b))));
         }
     }
     // Side by side they would be wider than a page.
@@ -78,52 +74,70 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
     parts
 }
 
-fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&ComparedFactor) -> &ComparedIndex) -> Part {
+fn moment(estimate: f64, interval: Option<Interval>) -> String {
+    match interval {
+        Some(_) => give_or_take(Estimate { estimate, interval }),
+        None => significant(estimate),
+    }
+}
+
+/// A choice of one of the indices of a factor.
+type IndexOf = fn(&ComparedFactor) -> &ComparedIndex;
+
+fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: IndexOf) -> Part {
     let caption = format!(
         "{what} in both, with the half width of its 95 % interval, and the difference; a star marks differences whose interval \
          excludes 0."
     );
-    let star = |index: &ComparedIndex| if index.differs == Some(true) { " *" } else { "" };
     Table::from_rows(caption, &output.factors)
         .text("factor", |factor| format!("{}{}", if factor.group { "group " } else { "" }, name(&factor.name)))
         .number(format!("{symbol} of A"), |factor| of(factor).a)
         .number(format!("{symbol} of B"), |factor| of(factor).b)
-        .number("B − A", |factor| or_dash(of(factor).difference, give_or_take) + star(of(factor)))
+        .number("B − A", |factor| {
+            let ComparedIndex { difference, differs, .. } = of(factor);
+            or_dash(*difference, give_or_take) + if *differs == Some(true) { " *" } else { "" }
+        })
         .into()
 }
 
 /// Says which factor has the largest total index in each, as far as intervals show, without output and full stop.
 fn leaders(output: &ComparedOutput) -> String {
-    let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
-        let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
-        let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
-        let names: Vec<&str> = leading::leaders(&known).iter().map(|&place| known[place].label.as_str()).collect();
-        match &names[..] {
-            [] => None,
-            [one] => Some(format!("{one} has the largest total index")),
-            several => Some(format!("{} cannot be distinguished by their total indices", listed(several))),
-        }
-    };
-    match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
+    match (leaders_of(output, |total| total.a), leaders_of(output, |total| total.b)) {
         (Some(a), Some(b)) if a == b => format!("{a} in both"),
         (Some(a), Some(b)) => format!("{a} in A; {b} in B"),
         _ => "one of the results has no indices".to_owned(),
     }
 }
 
+/// Says which factor has the largest total index in one of them; `None` if it has no indices.
+fn leaders_of(output: &ComparedOutput, side: fn(&ComparedIndex) -> Option<Estimate>) -> Option<String> {
+    let mut contenders = Vec::new();
+    for factor in single_factors(output) {
+        contenders.extend(side(&factor.total).map(|total| Contender::new(name(&factor.name), total)));
+    }
+    let leaders = leading::leaders(&contenders);
+    let names: Vec<&str> = leaders.iter().map(|&place| contenders[place].label.as_str()).collect();
+    match &names[..] {
+        [] => None,
+        [one] => Some(format!("{one} has the largest total index")),
+        several => Some(format!("{} cannot be distinguished by their total indices", listed(several))),
+    }
+}
+
 /// Explains the stars and how reliable they are.
 fn legend(file: &ComparisonFile) -> String {
-    let indices = || file.outputs.iter().flat_map(|o| &o.factors).flat_map(|f| [&f.first_order, &f.total]);
-    let compared = indices().filter(|index| index.differs.is_some()).count();
+    let factors = file.outputs.iter().flat_map(|output| &output.factors);
+    let indices: Vec<&ComparedIndex> = factors.flat_map(|factor| [&factor.first_order, &factor.total]).collect();
+    let compared = indices.iter().filter(|index| index.differs.is_some()).count();
     if compared == 0 {
         return "There are no intervals: the errors of the differences are unknown.".to_owned();
     }
-    let differing = indices().filter(|index| index.differs == Some(true)).count();
+    let differing = indices.iter().filter(|index| index.differs == Some(true)).count();
     let mut text = format!(
         "A star marks a difference whose 95 % interval excludes 0: {differing} of {compared}; chance alone gives \
          about one in twenty."
     );
-    if indices().all(|index| index.a == index.b) {
+    if indices.iter().all(|index| index.a == index.b) {
         text.push_str(" All indices are the same, to the last bit.");
     } else if file.shared_points {
         text.push_str(
@@ -155,16 +169,16 @@ fn all_indices(file: &ComparisonFile) -> Table {
 /// Draws the indices side by side. Of more than 20 factors, those with the largest total indices in either result.
 pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
-    let panel = |title: &str, of: fn(&ComparedFactor) -> &ComparedIndex| {
-        let a = factors.iter().map(|factor| of(factor).a).collect();
-        let b = factors.iter().map(|factor| of(factor).b).collect();
-        let series =
-            [(Series::new(&file.a.label, Colour::Series(1)), a), (Series::new(&file.b.label, Colour::Series(0)), b)];
+    let kinds: [(&str, IndexOf); 2] =
+        [("First-order indices", |factor| &factor.first_order), ("Total indices", |factor| &factor.total)];
+    let panels = kinds.map(|(title, of)| {
+        let series = [
+            (Series::new(&file.a.label, Colour::Series(1)), factors.iter().map(|factor| of(factor).a).collect()),
+            (Series::new(&file.b.label, Colour::Series(0)), factors.iter().map(|factor| of(factor).b).collect()),
+        ];
         index_panel(INDEX, names(&factors), series, INDICES, &keys(&factors)).titled(title)
-    };
+    });
     let title = format!("Indices of {}: {} and {}", name(&output.name), file.a.label, file.b.label);
-    let panels =
-        [panel("First-order indices", |factor| &factor.first_order), panel("Total indices", |factor| &factor.total)];
     Chart::new(title, caption(output)).side_by_side().panels(panels)
 }
 
@@ -192,10 +206,8 @@ fn names(factors: &[&ComparedFactor]) -> Vec<String> {
 
 /// Returns the sort keys of both charts: the larger total index.
 fn keys(factors: &[&ComparedFactor]) -> Vec<f64> {
-    let larger_total = |factor: &&ComparedFactor| {
-        [factor.total.a, factor.total.b].into_iter().flatten().map(|index| index.estimate).fold(0.0, f64::max)
-    };
-    factors.iter().map(larger_total).collect()
+    let totals = factors.iter().map(|factor| [factor.total.a, factor.total.b].into_iter().flatten());
+    totals.map(|totals| totals.map(|total| total.estimate).fold(0.0, f64::max)).collect()
 }
 
 /// Says how many differences exceed the errors, and what is not drawn.

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use apportion::result::{FactorDistribution, FactorRecord, OutputResult, StudyResult};
+use apportion::result::{FactorDistribution, FactorRecord, GroupRecord, OutputResult, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
 use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
 
+use crate::output_view::effects;
 use crate::with_unit;
 
 /// Two results compared, as described in `docs/comparison-format.md`.
@@ -113,10 +114,9 @@ impl ComparedIndex {
     /// Compares the index `a` in A with the index `b` in B.
     pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
         let difference = a.zip(b).map(|(a, b)| difference(a, b));
-        let beyond = |d: Estimate| {
-            d.interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && d.estimate.abs() > ROUNDING)
-        };
-        let differs = difference.and_then(beyond);
+        let differs = difference.and_then(|Estimate { estimate, interval }| {
+            interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && estimate.abs() > ROUNDING)
+        });
         Self { a, b, difference, differs }
     }
 }
@@ -208,11 +208,11 @@ pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<Compa
 
 /// Returns whether two results use the same points: the same sampler, seed, size and number of factors.
 pub fn shared_points(a: &StudyResult, b: &StudyResult) -> bool {
-    let design = |result: &StudyResult| {
+    let [a, b] = [a, b].map(|result| {
         let p = &result.provenance;
         (p.sampler, p.seed, p.base_samples, p.replicates, result.factors.len())
-    };
-    design(a) == design(b)
+    });
+    a == b
 }
 
 fn side(&NamedResult { result, label, file }: &NamedResult<'_>) -> ComparedSide {
@@ -235,52 +235,49 @@ fn factor_names(result: &StudyResult) -> Vec<String> {
 
 /// Returns the names that only one of them has; there must be common ones.
 fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
-    let without = |all: &[String], others: &[String]| -> Vec<String> {
-        all.iter().filter(|name| !others.contains(name)).cloned().collect()
-    };
-    let found = OneSided { a: without(a, b), b: without(b, a) };
-    match found.a.len() == a.len() {
+    let only_a: Vec<String> = a.iter().filter(|name| !b.contains(name)).cloned().collect();
+    let only_b = b.iter().filter(|name| !a.contains(name)).cloned().collect();
+    match only_a.len() == a.len() {
         true => {
             let [a, b] = [a, b].map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
             Err(CompareError::NothingInCommon { what, a, b })
         }
-        false => Ok(found),
+        false => Ok(OneSided { a: only_a, b: only_b }),
     }
 }
 
 fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<ComparedOutput, CompareError> {
-    let other_quantity =
-        || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
     // If a unit is not understood, its text must be the same.
     let (of_a, of_b) = (Unit::label(&a.unit), Unit::label(&b.unit));
     if !of_a.compatible(&of_b) {
-        return Err(other_quantity());
+        return Err(CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() });
     }
-    let is_same = a.unit == b.unit;
-    let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
-    let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
-    let sd = |output: &OutputResult| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
-    let of_factor = |output: &OutputResult, name: &String| {
-        output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
-    };
-    let of_group = |output: &OutputResult, name: &String| {
-        output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
-    };
-    let factors = names.iter().map(|name| factor(name, false, of_factor(a, name), of_factor(b, name)));
-    let groups = a.groups.iter().flatten().filter_map(|record| {
-        let of_b = of_group(b, &record.group)?;
-        Some(factor(&record.group, true, Some(record.effect), Some(of_b)))
-    });
+    let (mut mean, mut mean_interval) = (b.mean, b.mean_interval);
+    let [sd, mut other_sd] = [a, b].map(|output| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt));
+    if a.unit != b.unit {
+        mean = mean.map(|mean| of_a.from_si(of_b.to_si(mean)));
+        mean_interval = mean_interval.map(|Interval { low, high }| {
+            let [low, high] = [low, high].map(|bound| of_a.from_si(of_b.to_si(bound)));
+            Interval { low, high }
+        });
+        other_sd = other_sd.map(|sd| of_a.span_from_si(of_b.span_to_si(sd)));
+    }
+    let mut factors = Vec::new();
+    for name in names {
+        let [a, b] = [a, b].map(|output| effects(output).find(|(factor, _)| factor == name).map(|(_, effect)| *effect));
+        factors.push(compared_factor(name, false, a, b));
+    }
+    for GroupRecord { group, effect, .. } in a.groups.iter().flatten() {
+        let other = b.groups.iter().flatten().find(|other| other.group == *group);
+        factors.extend(other.map(|other| compared_factor(group, true, Some(*effect), Some(other.effect))));
+    }
     Ok(ComparedOutput {
         name: a.name.clone(),
         unit: a.unit.clone(),
-        mean: [a.mean, b.mean.map(value)],
-        mean_interval: [
-            a.mean_interval,
-            b.mean_interval.map(|of| Interval { low: value(of.low), high: value(of.high) }),
-        ],
-        sd: [sd(a), sd(b).map(span)],
-        factors: factors.chain(groups).collect(),
+        mean: [a.mean, mean],
+        mean_interval: [a.mean_interval, mean_interval],
+        sd: [sd, other_sd],
+        factors,
         reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),
     })
 }
@@ -289,7 +286,7 @@ fn reason(output: &OutputResult) -> String {
     output.reason.clone().unwrap_or_else(|| "the result has none".to_owned())
 }
 
-fn factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {
+fn compared_factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {
     ComparedFactor {
         name: name.to_owned(),
         group,
@@ -311,38 +308,46 @@ pub struct SettingDifference {
 
 /// Returns the settings in which the studies differ: model, its choices and constants, factors, design. If the models
 /// differ, choices and constants are not compared.
-pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<SettingDifference> {
-    let mut found = Vec::new();
-    let mut note = |what: &str, said: &dyn Fn(&StudyResult) -> Option<String>| {
-        let (a, b) = (said(a), said(b));
-        found.extend((a != b).then(|| SettingDifference { what: what.to_owned(), a, b }));
-    };
-    note("model", &|result| Some(result.study.model.clone()));
+pub(super) fn differences(a: &StudyResult, b: &StudyResult) -> Vec<SettingDifference> {
+    let mut all = vec![setting("model", [a, b].map(|result| Some(result.study.model.clone())))];
     if a.study.model == b.study.model {
         for key in union(a.study.settings.keys(), b.study.settings.keys()) {
-            note(key, &|result| result.study.settings.get(key).map(in_words));
+            all.push(setting(key, [a, b].map(|result| result.study.settings.get(key).map(in_words))));
         }
-        // A name that is a factor in either study is compared among the factors.
-        let is_factor = |name: &String| [a, b].iter().any(|result| result.factors.iter().any(|f| f.name == *name));
-        let names = |result: &'a StudyResult| result.study.constants.iter().map(|constant| &constant.name);
-        for name in union(names(a), names(b)).into_iter().filter(|name| !is_factor(name)) {
-            note(name, &|result| {
-                let constant = result.study.constants.iter().find(|constant| constant.name == *name)?;
-                Some(with_unit(constant.value, &constant.unit))
-            });
+        let [of_a, of_b] = [a, b].map(|result| result.study.constants.iter().map(|constant| &constant.name));
+        for name in union(of_a, of_b) {
+            // A name that is a factor in either study is compared among the factors.
+            if a.factors.iter().chain(&b.factors).all(|factor| factor.name != *name) {
+                all.push(setting(
+                    name,
+                    [a, b].map(|result| {
+                        let constant = result.study.constants.iter().find(|constant| constant.name == *name)?;
+                        Some(with_unit(constant.value, &constant.unit))
+                    }),
+                ));
+            }
         }
     }
     for name in union(a.factors.iter().map(|f| &f.name), b.factors.iter().map(|f| &f.name)) {
-        let factor = |result: &StudyResult| result.factors.iter().find(|factor| factor.name == *name).map(of_factor);
-        note(&format!("factor {name}"), &factor);
+        let factors = [a, b].map(|result| result.factors.iter().find(|factor| factor.name == *name).map(of_factor));
+        all.push(setting(&format!("factor {name}"), factors));
     }
-    note("sampler", &|result| Some(result.provenance.sampler.name().to_owned()));
-    note("base samples", &|result| Some(result.provenance.base_samples.to_string()));
-    note("replicates", &|result| Some(result.provenance.replicates.to_string()));
-    note("plain rows", &|result| Some(result.provenance.plain_rows.to_string()));
-    note("seed", &|result| Some(result.provenance.seed.to_string()));
-    note("version", &|result| Some(result.provenance.apportion_version.clone()));
-    found
+    let [of_a, of_b] = [a, b].map(|result| {
+        let p = &result.provenance;
+        let [base_samples, replicates, seed] = [p.base_samples, p.replicates, p.seed].map(|number| number.to_string());
+        let plain_rows = p.plain_rows.to_string();
+        [p.sampler.name().to_owned(), base_samples, replicates, plain_rows, seed, p.apportion_version.clone()]
+    });
+    let names = ["sampler", "base samples", "replicates", "plain rows", "seed", "version"];
+    for (name, (a, b)) in names.into_iter().zip(of_a.into_iter().zip(of_b)) {
+        all.push(setting(name, [Some(a), Some(b)]));
+    }
+    all.into_iter().flatten().collect()
+}
+
+/// Returns a setting if it differs.
+fn setting(what: &str, [a, b]: [Option<String>; 2]) -> Option<SettingDifference> {
+    (a != b).then(|| SettingDifference { what: what.to_owned(), a, b })
 }
 
 /// Returns the names of both, each once, in the order of A and then of B.

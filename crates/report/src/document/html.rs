@@ -116,13 +116,10 @@ impl Surroundings<'_> {
 
     /// Renders a figure, drawn for a column and for a phone, or a small one.
     fn figure(&self, figure: &Figure, is_small: bool) -> String {
-        let picture = |format: &ChartFormat| {
-            let ending = format.name();
-            Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem))
-        };
         let mut links = Vec::new();
-        if !figure.stem.is_empty() {
-            links.extend(self.formats.iter().map(picture));
+        for format in self.formats.iter().filter(|_| !figure.stem.is_empty()) {
+            let ending = format.name();
+            links.push(Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem)));
         }
         if self.has_files && !figure.data.is_empty() {
             links.push(Link::new("CSV", &figure.data));

@@ -17,7 +17,7 @@ mod text;
 
 use std::borrow::Cow;
 
-pub use report::{OutputReport, Report};
+pub use report::{OutputReport, Report, ReportedStudy};
 pub use symbols::symbols;
 pub use table::{Cell, Column, Mark, OnPhone, Rows, Table};
 pub(crate) use table::{csv, largest};
@@ -121,10 +121,10 @@ pub struct Figure {
     pub id: String,
     /// Its label, such as `CHK fig. 6`; may be empty.
     pub label: String,
-    /// Its title on the page, if the chart's own title repeats that of the document.
+    /// Its title on the page, if the title of the chart repeats that of the document.
     pub title: Option<String>,
     /// What to compare it with, such as what the paper's figure shows; may be empty.
-    pub beside: String,
+    pub comparison_note: String,
     /// The chart; its title and caption are set as text of the page, its description as the alternative text.
     pub chart: Chart,
     /// The name of its files, without ending.
@@ -190,7 +190,7 @@ impl Document {
         self
     }
 
-    /// Numbers the figures in order, except those with a label of their own.
+    /// Numbers the figures in order, except those whose label is set.
     pub(crate) fn number_figures(&mut self) {
         let mut number = 0;
         self.visit_mut(&mut |part| {
@@ -217,7 +217,7 @@ impl Document {
 pub(crate) fn grouped_by_key<K: PartialEq, V>(items: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
     let mut groups: Vec<(K, Vec<V>)> = Vec::new();
     for (key, item) in items {
-        match groups.iter_mut().find(|(known, _)| *known == key) {
+        match groups.iter_mut().find(|(other, _)| *other == key) {
             Some((_, group)) => group.push(item),
             None => groups.push((key, vec![item])),
         }
@@ -264,7 +264,7 @@ impl Figure {
             id: UNNUMBERED.to_owned(),
             label: "Figure ".to_owned(),
             title: None,
-            beside: String::new(),
+            comparison_note: String::new(),
             chart,
             stem: stem.into(),
             data: String::new(),
@@ -272,9 +272,9 @@ impl Figure {
     }
 
     /// Returns the part of the chart's title after that of the document.
-    pub(crate) fn own_title(&self, title: &str) -> Option<String> {
-        let own = self.chart.title.strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
-        own.map(apportion_base::text::capitalised)
+    pub(crate) fn title_after(&self, title: &str) -> Option<String> {
+        let rest = self.chart.title.strip_prefix(title)?.strip_prefix(": ")?;
+        Some(apportion_base::text::capitalised(rest))
     }
 }
 
@@ -307,7 +307,7 @@ impl Section {
 impl Part {
     /// Lists warnings, each a sentence that begins with a lower-case letter and has no full stop.
     pub(crate) fn warnings(warnings: &[String]) -> Option<Self> {
-        let texts = warnings.iter().map(|warning| format!("{}.", of_sentence(warning))).collect();
+        let texts = warnings.iter().map(|warning| format!("{}.", as_sentence(warning))).collect();
         let kind = "Warning".to_owned();
         (!warnings.is_empty()).then_some(Self::Notice { mark: Mark::Mixed, kind, texts })
     }
@@ -325,7 +325,7 @@ impl Part {
 }
 
 /// Formats a text as a sentence: a name before a colon, such as a factor or a flag, is not capitalised.
-fn of_sentence(text: &str) -> String {
+fn as_sentence(text: &str) -> String {
     match text.split_once(": ") {
         Some((name, _)) if !name.contains(' ') || name.ends_with(" runs)") || name.ends_with("(1 run)") => {
             text.to_owned()

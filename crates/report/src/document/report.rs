@@ -1,7 +1,7 @@
 //! The content of a command's document, and its conversion to a document.
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{StudySetup, ValidityRecord};
+use apportion::result::{FactorRecord, StudyRecord, StudySetup, ValidityRecord};
 
 use super::{DataFile, Document, Figure, Part, Section, Table, UNNUMBERED, figures_mut};
 use crate::chart::Chart;
@@ -25,6 +25,23 @@ pub struct OutputReport<'a> {
     pub parts: Vec<Part>,
     /// Its charts, each with the suffix of its file names.
     pub charts: Vec<(&'static str, Chart)>,
+}
+
+/// The study in a report.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReportedStudy<'a> {
+    /// The question.
+    pub record: &'a StudyRecord,
+    /// The factors.
+    pub factors: &'a [FactorRecord],
+    /// SHA-256 of the study file in hexadecimal.
+    pub sha256: &'a str,
+}
+
+impl<'a> From<&'a StudySetup> for ReportedStudy<'a> {
+    fn from(study: &'a StudySetup) -> Self {
+        Self { record: study, factors: &study.factors, sha256: &study.sha256 }
+    }
 }
 
 /// The report of a command. Empty fields are omitted.
@@ -53,10 +70,16 @@ pub struct Report<'a> {
     pub validity: &'a [ValidityRecord],
     /// The numbers of failed model runs and of all model runs.
     pub failed_runs: (u64, u64),
+    /// Whether validity and failed runs are set off after the first figure, instead of at the top.
+    pub has_callout: bool,
+    /// Sections on the method, before that on the study.
+    pub method: Vec<Section>,
     /// The study that was run.
-    pub study: Option<&'a StudySetup>,
+    pub study: Option<ReportedStudy<'a>>,
     /// The version of the program that computed it; the current one if it is empty.
     pub version: &'a str,
+    /// How to cite the result, before the table of provenance.
+    pub citation: &'static str,
     /// Provenance: a table of names and values.
     pub provenance: Vec<(&'static str, String)>,
     /// The file `NAME.json`.
@@ -65,6 +88,8 @@ pub struct Report<'a> {
     pub csv: Option<Table>,
     /// Suffix of the name of the CSV file, before `.csv`.
     pub csv_ending: &'static str,
+    /// Further data files.
+    pub files: Vec<DataFile>,
 }
 
 impl Report<'_> {
@@ -74,18 +99,25 @@ impl Report<'_> {
         let answers = self.outputs.iter_mut().map(|output| std::mem::take(&mut output.answer));
         let mut lead = first_answers(answers.filter(|answer| !answer.is_empty()).collect());
         lead.append(&mut self.lead);
-        lead.extend(study_sections::sentence(self.validity));
-        lead.extend(study_sections::of_failures(self.failed_runs.0, self.failed_runs.1));
         let of_outputs = self.of_outputs();
         let mut sections: Vec<Section> = self.first.into_iter().chain(of_outputs).chain(self.then).collect();
+        if self.has_callout {
+            insert_after_figure(&mut sections, study_sections::callout(self.validity, self.failed_runs));
+        } else {
+            lead.extend(study_sections::sentence(self.validity));
+            lead.extend(study_sections::of_failures(self.failed_runs));
+        }
         sections.extend(Part::notes(self.notes).map(|notes| Section::new("notes", "Notes", vec![notes])));
         sections.extend(validity_section(self.validity));
-        sections.extend(self.study.map(|study| study_section(study, &study.factors)));
+        sections.extend(self.method);
+        sections.extend(self.study.map(|study| study_section(study.record, study.factors)));
         if !self.provenance.is_empty() {
             let program = [("program", format!("apportion {version}"))].into_iter();
             let digest = self.study.map(|study| ("study file, SHA-256", format!("`{}`", study.sha256)));
             let table = Table::pairs("How the result was computed.", program.chain(self.provenance).chain(digest));
-            sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![table.into()])]));
+            let citation = (!self.citation.is_empty()).then(|| Part::Text(self.citation.to_owned()));
+            let parts = citation.into_iter().chain([table.into()]).collect();
+            sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(parts)]));
         }
         sections.retain(|section| !section.parts.is_empty());
         let data = format!("{}{}.csv", self.name, self.csv_ending);
@@ -96,7 +128,7 @@ impl Report<'_> {
             lead,
             sections,
             footer: format!("Made by apportion {version}."),
-            files: json.into_iter().chain(csv).collect(),
+            files: json.into_iter().chain(csv).chain(self.files).collect(),
             name: self.name,
             title: self.title,
             charts: Vec::new(),
@@ -110,7 +142,7 @@ impl Report<'_> {
                 table.file.clone_from(&data);
             }
             for figure in figures_mut(part).iter_mut().filter(|figure| figure.id == UNNUMBERED) {
-                (figure.title, figure.data) = (figure.own_title(&title), data.clone());
+                (figure.title, figure.data) = (figure.title_after(&title), data.clone());
             }
         });
         document.number_figures();
@@ -127,17 +159,29 @@ impl Report<'_> {
         endings.dedup();
         let stems = file_stems(&self.name, &names, &endings);
         let are_many = names.len() >= MIN_OUTPUTS_TOGETHER;
-        let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
-            let figure = |(ending, chart)| Figure::unnumbered(chart, format!("{stem}{ending}")).into();
-            let parts = Part::warnings(output.warnings).into_iter().chain(output.charts.into_iter().map(figure));
-            let parts = parts.chain(output.parts).collect();
-            Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts)
-        };
-        let sections = (1..).zip(std::mem::take(&mut self.outputs).into_iter().zip(stems)).map(section);
-        if !are_many {
-            return sections.collect();
+        let mut sections = Vec::new();
+        for ((number, output), stem) in (1..).zip(std::mem::take(&mut self.outputs)).zip(stems) {
+            let mut parts: Vec<Part> = Part::warnings(output.warnings).into_iter().collect();
+            for (ending, chart) in output.charts {
+                parts.push(Figure::unnumbered(chart, format!("{stem}{ending}")).into());
+            }
+            parts.extend(output.parts);
+            sections.push(Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts));
         }
-        let folded = sections.map(|Section { title, parts, .. }| Part::Details { summary: title, parts });
+        if !are_many {
+            return sections;
+        }
+        let folded = sections.into_iter().map(|Section { title, parts, .. }| Part::Details { summary: title, parts });
         vec![Section::new("outputs", "Output by output", folded.collect())]
+    }
+}
+
+/// Inserts a part after the first figure of a document, if there is one.
+fn insert_after_figure(sections: &mut [Section], part: Option<Part>) {
+    for section in sections {
+        if let Some(place) = section.parts.iter().position(|part| matches!(part, Part::Figure(_))) {
+            section.parts.splice(place + 1..place + 1, part);
+            return;
+        }
     }
 }

@@ -65,12 +65,12 @@ fn is_in_name(before: &str, after: &str) -> bool {
 
 /// Removes control characters (line ends and tabs stay) and those that change the direction of writing.
 pub(super) fn clean(text: &str) -> String {
-    let allowed = |c: &char| {
-        matches!(c, '\n' | '\t')
-            || !(c.is_control()
-                || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}'))
-    };
-    text.chars().filter(allowed).collect()
+    let allowed = text.chars().filter(|c| match c {
+        '\n' | '\t' => true,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}' => false,
+        c => !c.is_control(),
+    });
+    allowed.collect()
 }
 
 /// Cleans the text and escapes the characters that have a meaning in HTML.
@@ -93,10 +93,13 @@ pub(super) fn href(to: &str) -> String {
 
 /// Percent-encodes everything but letters, digits, `-`, `_`, `.`, `~` and the characters in `kept` (RFC 3986).
 fn encoded(text: &str, kept: &str) -> String {
-    let letter = |byte: u8| {
+    let mut url = String::with_capacity(text.len());
+    for byte in text.bytes() {
         let c = char::from(byte);
-        let is_kept = c.is_ascii_alphanumeric() || "-_.~".contains(c) || kept.contains(c);
-        if is_kept { c.to_string() } else { format!("%{byte:02X}") }
-    };
-    text.bytes().map(letter).collect()
+        match c.is_ascii_alphanumeric() || "-_.~".contains(c) || kept.contains(c) {
+            true => url.push(c),
+            false => url.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    url
 }

@@ -115,6 +115,16 @@ impl Table {
         csv([self])
     }
 
+    /// Returns the cells of its rows in a file.
+    fn file_rows(&self) -> Vec<Vec<String>> {
+        let mut rows = Vec::new();
+        for row in &self.rows {
+            let cells = self.columns.iter().zip(row).filter(|(column, _)| !column.names.is_empty());
+            rows.push(cells.flat_map(|(_, cell)| cell.value.0.clone()).collect());
+        }
+        rows
+    }
+
     /// Returns whether any of its columns is in a file.
     pub(super) fn has_fields(&self) -> bool {
         self.columns.iter().any(|column| !column.names.is_empty())
@@ -143,15 +153,7 @@ pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> Stri
     let mut tables = tables.into_iter().peekable();
     let Some(first) = tables.peek() else { return String::new() };
     let header: Vec<String> = first.borrow().columns.iter().flat_map(|column| column.names.clone()).collect();
-    let rows = tables.flat_map(|table| {
-        let table = table.borrow();
-        let row = |row: &Vec<Cell>| -> Vec<String> {
-            let in_file = table.columns.iter().zip(row).filter(|(column, _)| !column.names.is_empty());
-            in_file.flat_map(|(_, cell)| cell.value.0.clone()).collect()
-        };
-        table.rows.iter().map(row).collect::<Vec<_>>()
-    });
-    lines(std::iter::once(header).chain(rows))
+    lines(std::iter::once(header).chain(tables.flat_map(|table| table.borrow().file_rows())))
 }
 
 /// Says how many of how many are shown; empty if all are.
@@ -224,19 +226,19 @@ impl<R: Copy> Rows<R> {
         self
     }
 
-    /// Prints the first `most` of the rows in this order; the caption then says how many of `what` there are.
-    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, most: usize, what: &str) -> Self {
+    /// Prints the first `max_rows` of the rows in this order; the caption then says how many of `what` there are.
+    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, max_rows: usize, what: &str) -> Self {
         let mut order: Vec<usize> = order.into_iter().collect();
-        self.table.caption.push_str(&largest(order.len().min(most), order.len(), what));
-        order.truncate(most);
+        self.table.caption.push_str(&largest(order.len().min(max_rows), order.len(), what));
+        order.truncate(max_rows);
         self.table.printed = Some(order);
         self
     }
 
-    /// Prints the first `most` of the rows in their own order.
-    pub fn first(self, most: usize, what: &str) -> Self {
+    /// Prints the first `max_rows` of the rows in their own order.
+    pub fn first(self, max_rows: usize, what: &str) -> Self {
         let all = 0..self.rows.len();
-        self.largest(all, most, what)
+        self.largest(all, max_rows, what)
     }
 
     /// Sets the cell of the last column in the row of sums.
@@ -258,7 +260,9 @@ impl<R: Copy> Rows<R> {
 
     fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(R) -> C) -> Self {
         self.table.columns.push(column);
-        self.table.rows.iter_mut().zip(&self.rows).for_each(|(cells, row)| cells.push(cell(*row).into()));
+        for (cells, row) in self.table.rows.iter_mut().zip(&self.rows) {
+            cells.push(cell(*row).into());
+        }
         self
     }
 
@@ -266,8 +270,9 @@ impl<R: Copy> Rows<R> {
         if let Some(column) = self.table.columns.last_mut() {
             column.names = names;
         }
-        let cells = self.table.rows.iter_mut().filter_map(|cells| cells.last_mut());
-        cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(cell, *row));
+        for (cell, row) in self.table.rows.iter_mut().filter_map(|cells| cells.last_mut()).zip(&self.rows) {
+            cell.value = value(cell, *row);
+        }
         self
     }
 }

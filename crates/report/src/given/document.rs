@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use apportion::given::InputIndices;
 use apportion::result::{OutputDistribution, json};
 use apportion::uncertainty::Estimate;
 use apportion_base::text::listed;
@@ -106,9 +105,14 @@ fn three(estimate: f64) -> String {
     index(Estimate::alone(estimate))
 }
 
+/// Formats an estimate with its error; empty for `None`.
+fn or_empty(estimate: Option<Estimate>) -> String {
+    estimate.map_or_else(String::new, index)
+}
+
 fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
-    let all = || result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
-    let ranks = all().any(|index| index.rank.is_some());
+    let mut indices = result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
+    let ranks = indices.any(|index| index.rank.is_some());
     let served = output.served();
     let first_order =
         "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
@@ -121,8 +125,8 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         None => first_order.to_owned(),
     };
     // The sum is that of the leading estimates, by ranks if there are any.
-    let sum = |is_leading: bool| output.sum_first_order.filter(|_| is_leading).map_or_else(String::new, three);
-    let said = |estimate: Option<Estimate>| estimate.map_or_else(String::new, index);
+    let sum = output.sum_first_order.map_or_else(String::new, three);
+    let (sum_by_ranks, sum_by_bins) = if ranks { (sum, String::new()) } else { (String::new(), sum) };
     let indices = output.indices.iter().flatten().enumerate();
     let rows = indices.map(|(number, index)| (index, served.map(|of| &of.indices[number])));
     let rows = Table::from_rows(caption, rows)
@@ -130,23 +134,23 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         .text("input", |(index, _)| &index.input)
         .named("input")
         .sum("sum")
-        .number("S_1, by ranks", |(index, _)| said(index.rank))
+        .number("S_1, by ranks", |(index, _)| or_empty(index.rank))
         .estimate("rank", |(index, _)| index.rank)
         .shown(ranks)
-        .sum(sum(ranks))
+        .sum(sum_by_ranks)
         .number("S_1, by bins", |(index, _)| self::index(index.binned.estimate))
         .estimate("binned", |(index, _)| Some(index.binned.estimate))
-        .sum(sum(!ranks))
+        .sum(sum_by_bins)
         .file("bins", |(index, _)| index.binned.bins as u64);
     if result.surrogate.is_none() {
         return rows.into();
     }
     let serves = result.outputs.iter().any(|output| output.served().is_some());
-    rows.number("S_1, by surrogate", |(_, of)| said(of.map(|index| index.first_order)))
+    rows.number("S_1, by surrogate", |(_, of)| or_empty(of.map(|index| index.first_order)))
         .estimate("surrogate", |(_, of)| of.map(|index| index.first_order))
         .shown(serves)
         .sum(served.map_or_else(String::new, |of| three(of.sum_first_order)))
-        .number("S_T, by surrogate", |(_, of)| said(of.map(|index| index.total)))
+        .number("S_T, by surrogate", |(_, of)| or_empty(of.map(|index| index.total)))
         .estimate("surrogate_total", |(_, of)| of.map(|index| index.total))
         .shown(serves)
         .sum("")
@@ -182,8 +186,8 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let served = output.served().map(|of| &of.indices);
     let by_surrogate: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].first_order)).collect();
     let total: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].total)).collect();
-    let leading = |k: usize| total[k].or(ranks[k]).or(bins[k]).map_or(f64::NAN, |index| index.estimate);
-    let keys: Vec<f64> = (0..indices.len()).map(leading).collect();
+    let leading = (0..indices.len()).map(|k| total[k].or(ranks[k]).or(bins[k]));
+    let keys: Vec<f64> = leading.map(|index| index.map_or(f64::NAN, |index| index.estimate)).collect();
     let series = [
         (Series::new("by ranks", Colour::Series(1)), ranks),
         (Series::new("by bins", Colour::Series(5)), bins),
@@ -203,12 +207,12 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
 
 /// Says which input explains most by itself.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
-    let contender = |(number, index): (usize, &InputIndices)| {
+    let mut contenders = Vec::new();
+    for (number, index) in output.indices.iter().flatten().enumerate() {
         let by_surrogate = output.served().map(|of| of.indices[number].first_order);
-        Contender::new(&index.input, by_surrogate.unwrap_or(index.leading()))
-    };
-    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().map(contender).collect();
-    match (leader(&known, &format!("For {}", output.name), "first-order index S_1", ""), &output.reason) {
+        contenders.push(Contender::new(&index.input, by_surrogate.unwrap_or(index.leading())));
+    }
+    match (leader(&contenders, &format!("For {}", output.name), "first-order index S_1", ""), &output.reason) {
         (Some(sentence), _) => format!("{sentence} From {} given rows.", result.table.rows),
         (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),
         (None, None) => format!("No indices of {}.", output.name),

@@ -1,7 +1,7 @@
 //! The result file of given data.
 
 use apportion::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, NoVariance, OutputIndices, PointSet,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, OutputIndices, PointSet,
     SurrogateOutput, SurrogateRefusal, Surrogates, TextColumn,
 };
 use apportion::result::OutputDistribution;
@@ -172,11 +172,13 @@ pub fn build_given(
     outputs: &[Column],
     facts: &GivenFacts,
 ) -> GivenFile {
-    let of_output = |(number, (indices, column)): (usize, (&OutputIndices, &Column))| {
-        let by_surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| &all.outputs[number]);
-        output_record(indices, by_surrogate.and_then(|result: &Result<_, NoVariance>| result.as_ref().ok()), column)
-    };
-    let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
+    let fitted = surrogates.and_then(|result| result.as_ref().ok());
+    let mut records = Vec::new();
+    for (number, (indices, column)) in indices.outputs.iter().zip(outputs).enumerate() {
+        let surrogate = fitted.and_then(|all| all.outputs[number].as_ref().ok());
+        records.push(output_record(indices, surrogate, column));
+    }
+    let outputs: Vec<GivenOutputRecord> = records;
     let serves = outputs.iter().any(|output| output.served().is_some());
     let warnings = sentences::warnings(indices, surrogates, facts.dropped);
     GivenFile {
@@ -209,8 +211,9 @@ pub fn build_given(
 
 /// Returns a sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
-    let found = Unlikely::find(&column.values)?;
-    Some(format!("{}: {} (--missing-value={:?})", column.name, found.in_table(found.first + 1), found.value))
+    let unlikely = Unlikely::find(&column.values)?;
+    let (text, value) = (unlikely.in_table(unlikely.first + 1), unlikely.value);
+    Some(format!("{}: {text} (--missing-value={value:?})", column.name))
 }
 
 fn points_name(points: &PointSet) -> &'static str {
@@ -222,19 +225,20 @@ fn points_name(points: &PointSet) -> &'static str {
 }
 
 fn input_record(column: &Column) -> GivenInputRecord {
-    let bounds = |(low, high): (f64, f64), &v: &f64| (low.min(v), high.max(v));
-    let (min, max) = column.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &value in &column.values {
+        (min, max) = (min.min(value), max.max(value));
+    }
     GivenInputRecord { name: column.name.clone(), min, max }
 }
 
 fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
     let indices = output.indices.as_ref();
-    let leading = |index: &InputIndices| index.leading().estimate;
     GivenOutputRecord {
         name: output.name.clone(),
         distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
         indices: indices.ok().cloned(),
-        sum_first_order: indices.ok().map(|indices| indices.iter().map(leading).sum()),
+        sum_first_order: indices.ok().map(|indices| indices.iter().map(|index| index.leading().estimate).sum()),
         surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
         measures: None,
         reason: indices.err().map(ToString::to_string),

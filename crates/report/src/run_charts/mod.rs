@@ -5,8 +5,7 @@ mod map;
 mod pairs;
 mod scatter;
 
-pub(super) use map::{along_chart, values};
-pub(super) use map::{map_chart, overall_order, together, together_chart};
+pub(super) use map::{along_chart, map_chart, overall_order, together_chart};
 pub use pairs::convergence_chart;
 pub use pairs::indices_chart;
 pub use pairs::pairs_chart;

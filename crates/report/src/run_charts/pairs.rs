@@ -1,13 +1,15 @@
 //! The indices: first order with total, second order as a map of pairs, and their convergence during the run.
 
-use apportion::result::{IndexRecord, OutputResult, PlainIndexRecord, StageRecord, StudyResult};
-use apportion::uncertainty::Estimate;
+use apportion::result::{OutputResult, PlainIndexRecord, StageRecord, StudyResult};
+use apportion::uncertainty::{EffectEstimates, Estimate};
 
 use super::map::{class, series, short};
 use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke, Tile};
 use crate::factor_bars::{INDEX, INDICES, MAX_BARS, both_orders, index_panel, not_drawn, pair_panel};
 use crate::format::{grouped, index, name, two_digits};
-use crate::leading::{by_total, leader_of, surely_interact, widest_of};
+use crate::leading::{by_total, leader_of, surely_interact};
+use crate::output_view::effects;
+use crate::precision::widest_of;
 
 /// Maximum number of factors: with more, the figures would not fit into the cells on a phone.
 const MAX_PAIRS: usize = 15;
@@ -55,32 +57,38 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
 
 /// Returns the second-order index of two factors in any order, and its position.
 fn pair(output: &OutputResult, [one, other]: [&str; 2]) -> Option<(usize, Estimate)> {
-    let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
-    let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;
+    let mut pairs = output.second_order.iter().flatten().enumerate();
+    let (place, pair) = pairs.find(|(_, pair)| {
+        let [a, b] = &pair.factors;
+        (a == one && b == other) || (a == other && b == one)
+    })?;
     Some((place, pair.index)).filter(|(_, index)| index.estimate.is_finite())
 }
 
 /// Draws the first-order and total index of every factor, as parts of the output's variance, with their intervals; the
 /// largest total index on top. Of more than 20 factors, the first 20.
 pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
-    let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
-    let names = indices.iter().map(|index| name(&index.factor));
-    let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", name(&noise.name))));
-    let effects = || indices.iter().map(|index| &index.effect).chain(output.noise.iter().map(|noise| &noise.effect));
-    let (factors, first_order) = (names.collect(), effects().map(|effect| Some(effect.first_order)).collect());
-    let total = effects().map(|effect| Some(effect.total)).collect();
-    let keys: Vec<f64> = effects().map(|effect| effect.weight().estimate).collect();
-    let panel = match indices.iter().any(|index| index.effect.dependent.is_some()) {
+    let factor_count = effects(output).count();
+    let mut bars: Vec<(String, &EffectEstimates)> =
+        effects(output).map(|(factor, effect)| (name(factor), effect)).collect();
+    bars.extend(output.noise.iter().map(|noise| (format!("noise ({})", name(&noise.name)), &noise.effect)));
+    let first_order = bars.iter().map(|(_, effect)| Some(effect.first_order)).collect();
+    let total = bars.iter().map(|(_, effect)| Some(effect.total)).collect();
+    let keys: Vec<f64> = bars.iter().map(|(_, effect)| effect.weight().estimate).collect();
+    let factors = bars.into_iter().map(|(name, _)| name).collect();
+    let panel = match effects(output).any(|(_, effect)| effect.dependent.is_some()) {
         true => {
             let mut series = both_orders(first_order, total);
             let names = ["S_1, first order: with dependence on others", "S_T, total: without dependence on others"];
-            series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
+            for ((series, _), name) in series.iter_mut().zip(names) {
+                series.name = name.to_owned();
+            }
             index_panel(INDEX, factors, series, INDICES, &keys)
         }
         false => pair_panel(factors, first_order, total, &keys),
     };
     let title = format!("{}: indices of {}", result.study.headline(), name(&output.name));
-    Chart::new(title, leader_of(output) + &not_drawn(indices.len(), MAX_BARS)).panels([panel])
+    Chart::new(title, leader_of(output) + &not_drawn(factor_count, MAX_BARS)).panels([panel])
 }
 
 /// Factors with a line of their own.
@@ -92,14 +100,16 @@ pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let factors: Vec<usize> =
         by_total(output).unwrap_or_default().into_iter().map(|(factor, _)| factor).take(LINES).collect();
     let stages = &output.convergence;
-    let axis = |label: &str, spacing| Axis::new(label, "").spaced(spacing);
     let totals = factors.iter().enumerate().flat_map(|(place, &factor)| total_lines(stages, place, factor));
     let widths = factors.iter().enumerate().map(|(place, &factor)| width_line(stages, place, factor));
     let target = result.stopping.as_ref().and_then(|stopping| stopping.target_half_width);
     let references = [Some(largest_width(stages)), target.map(|target| target_line(stages, target))];
-    let panel = |title: &str, y| Panel::new(axis("model runs", Spacing::Logarithmic), y).titled(title);
-    let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
-    let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
+    let runs = Axis::new("model runs", "").spaced(Spacing::Logarithmic);
+    let totals = Panel::new(runs.clone(), Axis::new("total index", ""))
+        .titled("Total indices with their 95 % intervals")
+        .with(totals);
+    let widths = Panel::new(runs, Axis::new("half width", "").spaced(Spacing::Logarithmic))
+        .titled("Half widths of the intervals of the total indices")
         .with(widths);
     let title = format!("{}: convergence of the indices of {}", result.study.headline(), name(&output.name));
     Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
@@ -113,20 +123,20 @@ fn line_series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
 }
 
 /// Iterates over the number of runs and the index of `factor` at every stage.
-fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> {
+fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> + Clone {
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
 
 fn total_lines(stages: &[StageRecord], place: usize, factor: usize) -> [Mark; 2] {
     let series = line_series(stages, place, factor);
-    let bounds = |(runs, index): (f64, &PlainIndexRecord)| index.total.interval.map(|i| (runs, i.low, i.high));
-    let band = steps(stages, factor).filter_map(bounds).collect();
-    [series.band(band), series.line(steps(stages, factor).map(|(runs, index)| (runs, index.total.estimate)).collect())]
+    let steps = steps(stages, factor).map(|(runs, index)| (runs, index.total));
+    let band = steps.clone().filter_map(|(runs, total)| total.interval.map(|i| (runs, i.low, i.high))).collect();
+    [series.band(band), series.line(steps.map(|(runs, total)| (runs, total.estimate)).collect())]
 }
 
 fn width_line(stages: &[StageRecord], place: usize, factor: usize) -> Mark {
-    let width = |(runs, index): (f64, &PlainIndexRecord)| Some((runs, index.total.interval?.width() / 2.0));
-    line_series(stages, place, factor).line(steps(stages, factor).filter_map(width).collect())
+    let widths = steps(stages, factor).filter_map(|(runs, index)| Some((runs, index.total.interval?.width() / 2.0)));
+    line_series(stages, place, factor).line(widths.collect())
 }
 
 fn largest_width(stages: &[StageRecord]) -> Mark {
@@ -142,12 +152,12 @@ fn target_line(stages: &[StageRecord], target: f64) -> Mark {
 
 /// States the precision of the indices at the end.
 fn caption(result: &StudyResult, output: &OutputResult) -> String {
-    let known = match (output.convergence.last(), widest_of(output)) {
+    let precision = match (output.convergence.last(), widest_of(output)) {
         (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),
         (Some(last), None) => {
             format!("After {} model runs there are indices without an interval.", grouped(last.model_runs))
         }
         (None, _) => "There are too few base samples to estimate the indices from parts of them.".to_owned(),
     };
-    known + &not_drawn(result.indexed_names().len(), LINES)
+    precision + &not_drawn(result.indexed_names().len(), LINES)
 }

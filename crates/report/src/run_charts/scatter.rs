@@ -1,12 +1,15 @@
 //! The values of an output: against its most influential factors, which may be categories, and their distribution.
 
-use apportion::result::{FactorRecord, OutputDistribution, OutputResult, ScatterRecord, StudyResult};
+use apportion::result::{
+    FactorDistribution, FactorRecord, OutputDistribution, OutputResult, ScatterRecord, StudyResult,
+};
 use serde_json::Value;
 
 use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use crate::factor_bars::not_drawn;
 use crate::format::{axis_unit, fixed, grouped, minus, name, short_among, significant, words};
 use crate::leading::no_indices;
+use crate::output_view::effects;
 
 /// Part of the largest value below which the median makes a linear axis unreadable: most points would be at its foot.
 const PRESSED: f64 = 0.02;
@@ -16,7 +19,12 @@ const PRESSED: f64 = 0.02;
 pub fn scatter_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let scatter = output.scatter.as_ref();
     let y = Axis::new(words(&output.name), axis_unit(&output.unit)).spaced(scatter.map_or(Spacing::Linear, spacing));
-    let mut panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter, &y));
+    let mut panels = Vec::new();
+    if let Some(scatter) = scatter {
+        for place in 0..scatter.factors.len() {
+            panels.push(scatter_panel(result, output, scatter, place, y.clone()));
+        }
+    }
     if panels.is_empty() {
         panels.push(Panel::new(Axis::default(), y));
     }
@@ -25,39 +33,47 @@ pub fn scatter_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     Chart::new(title, caption).side_by_side().panels(panels)
 }
 
-fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
-    let runs = Series::new("model run", Colour::Series(0));
-    let panel = |(place, name): (usize, &String)| {
-        let record = result.factors.iter().find(|factor| factor.name == *name);
-        let index = output.indices.iter().flatten().find(|index| index.factor == *name);
-        let title = index.map_or_else(String::new, |index| {
-            let [first_order, total] =
-                [index.effect.first_order, index.effect.total].map(|i| minus(&fixed(i.estimate, 2)));
-            format!("S_1 {first_order}, S_T {total}")
-        });
-        let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
-        let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
-        let categories = record.and_then(Categories::new);
-        let at = |x: f64| categories.as_ref().map_or(x, |categories| categories.place(x));
-        let (x, stroke) = match &categories {
-            // Names have no unit, and nothing is drawn between two of them.
-            Some(categories) => (Axis::from_names(words(name), categories.labels.clone()), Stroke::Points),
-            None => {
-                let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
-                (Axis::new(words(name), unit).spaced(record.map_or(Spacing::Linear, factor_spacing)), Stroke::Solid)
-            }
-        };
-        let series = Series::new("mean over a slice of the factor", Colour::Reference).stroke(stroke);
-        let means = means.into_iter().flat_map(|means| {
-            let number = |list: &[Option<f64>], place: usize| list.get(place).copied().flatten().unwrap_or(f64::NAN);
-            let places = means.x.iter().map(|x| at(*x)).enumerate();
-            let band = places.clone().map(|(k, x)| (x, number(&means.low, k), number(&means.high, k))).collect();
-            [series.band(band), series.line(places.map(|(k, x)| (x, number(&means.mean, k))).collect())]
-        });
-        let dots = dots.map(|(x, y)| (at(x), y)).collect();
-        Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(means.collect::<Vec<_>>())
+/// Draws the output against the factor at `place` of its scatter record.
+fn scatter_panel(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, place: usize, y: Axis) -> Panel {
+    let name = &scatter.factors[place];
+    let record = result.factors.iter().find(|factor| factor.name == *name);
+    let title = effects(output).find(|(factor, _)| factor == name).map_or_else(String::new, |(_, effect)| {
+        let [first_order, total] = [effect.first_order, effect.total].map(|index| minus(&fixed(index.estimate, 2)));
+        format!("S_1 {first_order}, S_T {total}")
+    });
+    let categories = record.and_then(Categories::new);
+    let (x, stroke) = match &categories {
+        // Names have no unit, and nothing is drawn between two of them.
+        Some(categories) => (Axis::from_names(words(name), categories.labels.clone()), Stroke::Points),
+        None => {
+            let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
+            (Axis::new(words(name), unit).spaced(record.map_or(Spacing::Linear, factor_spacing)), Stroke::Solid)
+        }
     };
-    scatter.factors.iter().enumerate().map(panel).collect()
+    let mut dots = Vec::new();
+    for point in &scatter.points {
+        dots.extend(point.get(place).zip(point.last()).map(|(x, y)| (place_on_axis(&categories, *x), *y)));
+    }
+    let mut panel = Panel::new(x, y).titled(title);
+    panel = panel.with([Series::new("model run", Colour::Series(0)).mark(Shape::Dots(dots))]);
+    if let Some(means) = scatter.conditional_means.iter().find(|means| means.factor == *name) {
+        let (mut band, mut line) = (Vec::new(), Vec::new());
+        for (k, x) in means.x.iter().enumerate() {
+            let x = place_on_axis(&categories, *x);
+            let [low, mean, high] =
+                [&means.low, &means.mean, &means.high].map(|list| list.get(k).copied().flatten().unwrap_or(f64::NAN));
+            band.push((x, low, high));
+            line.push((x, mean));
+        }
+        let series = Series::new("mean over a slice of the factor", Colour::Reference).stroke(stroke);
+        panel = panel.with([series.band(band), series.line(line)]);
+    }
+    panel
+}
+
+/// Returns the position of a value on the axis of its factor.
+fn place_on_axis(categories: &Option<Categories>, x: f64) -> f64 {
+    categories.as_ref().map_or(x, |categories| categories.place(x))
 }
 
 fn factor_spacing(factor: &FactorRecord) -> Spacing {
@@ -101,13 +117,17 @@ pub(super) struct Categories {
 impl Categories {
     /// Returns the categories of a factor that has few.
     pub fn new(factor: &FactorRecord) -> Option<Self> {
-        let list = |key: &str| factor.distribution.parameters.get(key).and_then(Value::as_array);
-        let (labels, values): (Vec<String>, Vec<f64>) = match factor.distribution.name.as_str() {
+        let FactorDistribution { name, parameters } = &factor.distribution;
+        let (labels, values): (Vec<String>, Vec<f64>) = match name.as_str() {
             "boolean" => (vec!["false".to_owned(), "true".to_owned()], vec![0.0, 1.0]),
-            "categorical" => (
-                list("labels")?.iter().map(|label| label.as_str().map(str::to_owned)).collect::<Option<_>>()?,
-                list("values")?.iter().map(Value::as_f64).collect::<Option<_>>()?,
-            ),
+            "categorical" => {
+                let labels = parameters.get("labels")?.as_array()?.iter();
+                let values = parameters.get("values")?.as_array()?.iter();
+                (
+                    labels.map(|label| label.as_str().map(str::to_owned)).collect::<Option<_>>()?,
+                    values.map(Value::as_f64).collect::<Option<_>>()?,
+                )
+            }
             _ => return None,
         };
         let few = (1..=MAX_CATEGORIES).contains(&labels.len()) && labels.len() == values.len();
@@ -158,21 +178,23 @@ fn marks(distribution: &OutputDistribution) -> Vec<Mark> {
         return vec![series.line(vec![(mean, 0.0)]), Mark::rule(mean, format!("all values {}", significant(mean)))];
     };
     // Both upper corners of every bin over its lower ones.
-    let corners = |(ends, &count): (&[f64], &u64)| {
+    let mut steps = Vec::new();
+    for (ends, &count) in histogram.edges.windows(2).zip(&histogram.counts) {
         let height = count as f64 / distribution.count as f64 / (ends[1] - ends[0]);
-        [(ends[0], 0.0, height), (ends[1], 0.0, height)]
-    };
-    let steps = histogram.edges.windows(2).zip(&histogram.counts).flat_map(corners).collect();
+        steps.extend([(ends[0], 0.0, height), (ends[1], 0.0, height)]);
+    }
+    let mut marks = vec![Series::new("histogram", Colour::Series(0)).band(steps)];
     let (low, high) = distribution.central().unzip();
     let places = [(low, "2.5 %"), (distribution.quantile(50.0), "median"), (Some(mean), "mean"), (high, "97.5 %")];
-    // Marks outside the histogram would compress it.
-    let ends = histogram.edges.first().zip(histogram.edges.last());
-    let rule = |(x, name): (Option<f64>, &str)| {
-        let x = x.filter(|x| ends.is_some_and(|(low, high)| (low..=high).contains(&x)))?;
-        Some(Mark::rule(x, format!("{name} {}", short(x, distribution))))
-    };
-    let histogram = Series::new("histogram", Colour::Series(0)).band(steps);
-    std::iter::once(histogram).chain(places.into_iter().filter_map(rule)).collect()
+    for (place, name) in places {
+        // Marks outside the histogram would compress it.
+        if let (Some(x), [first, .., last]) = (place, &histogram.edges[..])
+            && (first..=last).contains(&&x)
+        {
+            marks.push(Mark::rule(x, format!("{name} {}", short(x, distribution))));
+        }
+    }
+    marks
 }
 
 /// Formats with the digits that distinguish the values, and a true minus sign.

@@ -2,12 +2,18 @@
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::correction::NamedTerm;
-use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult, SurrogateRecord};
+use apportion::given::Measure;
+use apportion::result::{
+    EstimatorRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, RunMeasures, StudyResult,
+    SurrogateRecord,
+};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
-use crate::document::{Cell, Part, Rows, Table, csv};
+use crate::document::{Cell, DataFile, Part, Rows, Table, csv};
 use crate::format::{among_with_unit, chance, grouped, index_with_unit, minus, name, printed, significant, value};
+use crate::given::measures_table;
 use crate::leading::{by_total, falling, surely_interact};
+use crate::output_view::{IndexOf, effects as effects_of};
 
 /// Maximum number of factors in a table; the files have all of them.
 pub(crate) const FACTORS: usize = 50;
@@ -60,7 +66,6 @@ fn effects<'a>(
     let is_of_one = lines.iter().all(|line| line.effect.is_some());
     // Differences of indices of dependent factors are not interactions, and exceedances of a threshold are not ranked.
     let is_independent = is_of_one && !is_dependent;
-    let chance = |probability| chance(probability).replace('-', "–");
     let mut rows = Table::from_rows(caption, lines)
         .file("output", |_| output)
         .file("kind", |line| line.kind)
@@ -78,11 +83,11 @@ fn effects<'a>(
         .file_estimate("share_total", |line| line.get(EffectEstimates::total_percent))
         .index("S_T − S_1", "interaction", |line| line.get(|effect| effect.interaction))
         .shown(is_independent)
-        .number("P(largest)", |line| chance(line.get(|effect| effect.probability_first)))
+        .number("P(largest)", |line| probability(line.get(|effect| effect.probability_first)))
         .value("probability_first", |line| line.get(|effect| effect.probability_first))
         .shown(is_independent)
         .number(format!("P(S_T > {})", result.provenance.threshold), |line| {
-            chance(line.get(|effect| effect.probability_above_threshold))
+            probability(line.get(|effect| effect.probability_above_threshold))
         })
         .value("probability_above_threshold", |line| line.get(|effect| effect.probability_above_threshold))
         .shown(is_independent);
@@ -101,6 +106,11 @@ fn effects<'a>(
     rows
 }
 
+/// Formats a probability, a dash for `None`.
+fn probability(probability: Option<f64>) -> String {
+    chance(probability).replace('-', "–")
+}
+
 /// Names the noise.
 fn of_noise(noise: &str) -> String {
     format!("noise ({})", name(noise))
@@ -109,11 +119,10 @@ fn of_noise(noise: &str) -> String {
 /// Tabulates first-order and total indices of the factors, the largest total index first.
 pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let order = by_total(output)?;
-    let factors = output.indices.iter().flatten();
-    let factors = factors.map(|index| Line::new("factor", name(&index.factor), &index.factor, &index.effect));
-    let noise = output.noise.iter();
-    let noise = noise.map(|noise| Line::new("noise", of_noise(&noise.name), &noise.name, &noise.effect));
-    let lines: Vec<Line<'_>> = factors.chain(noise).collect();
+    let mut lines: Vec<Line<'_>> =
+        effects_of(output).map(|(factor, effect)| Line::new("factor", name(factor), factor, effect)).collect();
+    lines
+        .extend(output.noise.iter().map(|noise| Line::new("noise", of_noise(&noise.name), &noise.name, &noise.effect)));
     let caption = "First-order index S_1 and total index S_T, each with the half width of its 95 % interval, the largest S_T first.";
     let mut rows = effects(result, &output.name, caption, "factor", &lines);
     // The sum of indices of dependent factors has no meaning.
@@ -122,28 +131,47 @@ pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Tab
         rows = rows.sums(sums);
     }
     let mut table: Table = rows.largest(order.iter().map(|(place, _)| *place), FACTORS, IN_CSV).into();
-    table.printed.iter_mut().for_each(|printed| printed.extend(order.len()..lines.len()));
+    if let Some(printed) = &mut table.printed {
+        printed.extend(order.len()..lines.len());
+    }
     Some(table)
 }
 
+/// Returns the tables of a result as CSV files: those that its outputs have.
+pub(super) fn data_files(result: &StudyResult) -> Vec<DataFile> {
+    let outputs = &result.outputs;
+    let mut texts = vec![("", indices_csv(result))];
+    if outputs.iter().any(|output| output.second_order.is_some()) {
+        texts.push(("-second-order", pairs_csv(result)));
+    }
+    if outputs.iter().any(|output| output.measures.is_some()) {
+        texts.push(("-measures", measures_csv(result)));
+    }
+    if outputs.iter().any(|output| !output.estimators.is_empty()) {
+        texts.push(("-estimators", estimators_csv(result)));
+    }
+    texts.push(("-convergence", convergence_csv(result)));
+    let name = &result.study.name;
+    texts.into_iter().map(|(ending, text)| DataFile::new(format!("{name}{ending}.csv"), text)).collect()
+}
+
 /// Formats the indices of all outputs: factors and groups, subsets and the dummy factor, then several together.
-pub(super) fn indices_csv(result: &StudyResult) -> String {
+fn indices_csv(result: &StudyResult) -> String {
     // Each table is built when it is written: there may be thousands.
-    let outputs = || result.outputs.iter();
-    let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
-    let then = outputs().filter_map(|output| subsets(result, output));
-    let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
-    let aggregate =
-        aggregate.map(|(record, indices)| aggregate_of(result, &record.outputs, indices, record.noise.as_ref()));
-    let series = result.series.iter().filter_map(|series| {
-        Some(aggregate_of(result, std::slice::from_ref(&series.name), series.indices.as_ref()?, None))
-    });
     let header = std::iter::once(effects(result, "", "", "", &[]).into());
-    csv(header.chain(first).chain(then).chain(aggregate).chain(series))
+    let outputs = result.outputs.iter();
+    let first = outputs.clone().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
+    let aggregate = result.aggregate.iter().filter_map(|record| {
+        let outputs: Vec<&str> = record.outputs.iter().map(String::as_str).collect();
+        Some(together(result, &outputs, record.indices.as_ref()?, record.noise.as_ref()))
+    });
+    let series = result.series.iter();
+    let series = series.filter_map(|series| Some(together(result, &[&series.name], series.indices.as_ref()?, None)));
+    csv(header.chain(first).chain(outputs.filter_map(|output| subsets(result, output))).chain(aggregate).chain(series))
 }
 
 /// Formats the second-order indices of all outputs.
-pub(super) fn pairs_csv(result: &StudyResult) -> String {
+fn pairs_csv(result: &StudyResult) -> String {
     let header = std::iter::once(pairs_table("", Vec::new()).into());
     csv(header.chain(result.outputs.iter().filter_map(pairs)))
 }
@@ -161,15 +189,16 @@ pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Tabl
 /// Tabulates joint indices of subsets of factors, and those of the dummy factor.
 pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let subsets = output.subsets.iter().flatten();
-    let lines =
-        subsets.map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect));
-    let label = || "dummy, without effect".to_owned();
-    let dummy = output.dummy.iter().map(|effect| Line::new("dummy", label(), "dummy", effect));
+    let mut lines: Vec<Line<'_>> = subsets
+        .map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect))
+        .collect();
+    let dummy = output.dummy.iter();
+    lines.extend(dummy.map(|effect| Line::new("dummy", "dummy, without effect".to_owned(), "dummy", effect)));
     let caption = match output.dummy {
         Some(_) => "Joint indices of subsets, and of a dummy factor: its indices are 0 except for errors.",
         None => "Joint indices of subsets of the factors: S_1 includes the interactions inside them.",
     };
-    joint(result, output, caption, lines.chain(dummy).collect())
+    joint(result, output, caption, lines)
 }
 
 fn joined(factors: &[String]) -> String {
@@ -208,39 +237,48 @@ fn pairs_table<'a>(output: &str, pairs: Vec<(&'a PairRecord, bool)>) -> Rows<(&'
 
 /// Tabulates first-order, then total indices by the other estimators, with the default ones.
 pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
-    let Some(order) = by_total(output) else { return Vec::new() };
-    type Of = fn(&OtherIndexRecord) -> Option<Estimate>;
-    type Default = fn(&EffectEstimates) -> Estimate;
-    let kinds: [(&str, Of, Default); 2] = [
-        ("First-order indices S_1 by estimator.", |other| other.first_order, |effect| effect.first_order),
-        ("Total indices S_T by estimator.", |other| other.total, |effect| effect.total),
+    let tables = [
+        (
+            "First-order indices S_1 by estimator.",
+            EstimatorColumn { other: |of| of.first_order, default: |of| of.first_order },
+        ),
+        ("Total indices S_T by estimator.", EstimatorColumn { other: |of| of.total, default: |of| of.total }),
     ];
-    let table = |(caption, of, default): (&str, Of, Default)| {
-        let has = |index: &OtherIndexRecord| of(index).is_some();
-        let mut records = output.estimators.iter().filter(|record| record.indices.iter().any(has)).peekable();
-        records.peek()?;
-        let rows = Table::from_rows(caption, order.iter().copied())
-            .text("factor", |(_, index)| name(&index.factor))
-            .number("default", |(_, index)| default(&index.effect));
-        let rows = records.fold(rows, |rows, record| {
-            rows.number(&record.estimator, |(number, _)| record.indices.get(number).and_then(of))
-        });
-        Some(rows.first(FACTORS_OF_ESTIMATORS, IN_CSV).into())
-    };
-    kinds.into_iter().filter_map(table).collect()
+    tables.into_iter().filter_map(|(caption, column)| estimator_table(output, caption, column)).collect()
+}
+
+/// Which index a table of estimators shows: of another estimator, and of the default ones.
+#[derive(Clone, Copy)]
+struct EstimatorColumn {
+    other: fn(&OtherIndexRecord) -> Option<Estimate>,
+    default: IndexOf,
+}
+
+fn estimator_table(output: &OutputResult, caption: &str, column: EstimatorColumn) -> Option<Part> {
+    let order = by_total(output)?;
+    let has_index = |record: &&EstimatorRecord| record.indices.iter().any(|index| (column.other)(index).is_some());
+    let records: Vec<&EstimatorRecord> = output.estimators.iter().filter(has_index).collect();
+    if records.is_empty() {
+        return None;
+    }
+    let mut rows = Table::from_rows(caption, order)
+        .text("factor", |(_, index)| name(&index.factor))
+        .number("default", |(_, index)| (column.default)(&index.effect));
+    for record in records {
+        rows = rows.number(&record.estimator, |(number, _)| record.indices.get(number).and_then(column.other));
+    }
+    Some(rows.first(FACTORS_OF_ESTIMATORS, IN_CSV).into())
 }
 
 /// Tabulates indices over all outputs together.
-pub(super) fn aggregate_of(
+pub(super) fn together(
     result: &StudyResult,
-    outputs: &[String],
+    outputs: &[&str],
     indices: &[PlainIndexRecord],
     noise: Option<&PlainIndexRecord>,
 ) -> Table {
-    // The noise is one more line.
-    let noise = noise.into_iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
-    let lines: Vec<Line<'_>> =
-        indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
+    let mut lines: Vec<Line<'_>> = indices.iter().map(|index| Line::plain(name(&index.factor), index)).collect();
+    lines.extend(noise.map(|noise| Line::plain(of_noise(&noise.factor), noise)));
     let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match outputs.len() {
@@ -253,7 +291,7 @@ pub(super) fn aggregate_of(
 }
 
 /// Formats the indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
-pub(super) fn estimators_csv(result: &StudyResult) -> String {
+fn estimators_csv(result: &StudyResult) -> String {
     let records = result.outputs.iter().flat_map(|output| output.estimators.iter().map(move |record| (output, record)));
     let rows = records.flat_map(|(output, record)| record.indices.iter().map(move |index| (output, record, index)));
     Table::from_rows("", rows)
@@ -266,7 +304,7 @@ pub(super) fn estimators_csv(result: &StudyResult) -> String {
 }
 
 /// Formats the indices at every stage of the run: a line per output, number of base samples and factor.
-pub(super) fn convergence_csv(result: &StudyResult) -> String {
+fn convergence_csv(result: &StudyResult) -> String {
     let stages = result.outputs.iter().flat_map(|output| output.convergence.iter().map(move |stage| (output, stage)));
     let rows = stages.flat_map(|(output, stage)| stage.indices.iter().map(move |index| (output, stage, index)));
     Table::from_rows("", rows)
@@ -287,31 +325,30 @@ const MIN_TERM_SHARE: f64 = 0.01;
 /// Tabulates moments and quantiles of an output's values.
 pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     let record = output.distribution.as_ref()?;
-    let number = |x: f64| minus(&among_with_unit(x, record.sample.spread(), &output.unit));
-    let mut rows: Vec<(String, String)> = Vec::new();
-    let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
     let sample = &record.sample;
-    add("values", Some(grouped(record.values)));
-    add("mean", mean(output));
-    add("standard deviation", sd(output));
-    add(
-        "coefficient of variation",
-        sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%")),
-    );
-    add("skewness", sample.skewness.map(|x| value(x, "")));
-    add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
-    add("smallest", Some(number(sample.min)));
-    if sample.histogram.is_some() {
-        let is_known = |percent: f64| QUANTILES.contains(&percent) && sample.tells(percent);
-        for quantile in sample.quantiles.iter().filter(|quantile| is_known(quantile.percent)) {
-            add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
+    let with_unit = |x: f64| minus(&among_with_unit(x, sample.spread(), &output.unit));
+    let variation = sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%"));
+    let mut rows: Vec<(String, Option<String>)> = [
+        ("values", Some(grouped(record.values))),
+        ("mean", mean(output)),
+        ("standard deviation", sd(output)),
+        ("coefficient of variation", variation),
+        ("skewness", sample.skewness.map(|x| value(x, ""))),
+        ("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, ""))),
+        ("smallest", Some(with_unit(sample.min))),
+    ]
+    .map(|(label, text)| (label.to_owned(), text))
+    .to_vec();
+    for quantile in sample.quantiles.iter().filter(|_| sample.histogram.is_some()) {
+        if QUANTILES.contains(&quantile.percent) && sample.tells(quantile.percent) {
+            rows.push((format!("{} % quantile", significant(quantile.percent)), Some(with_unit(quantile.value))));
         }
     }
-    add("largest", Some(number(sample.max)));
+    rows.push(("largest".to_owned(), Some(with_unit(sample.max))));
     let caption = "Moments and range are those of all values unless stated otherwise, mean and standard deviation with their \
                    95 % intervals; quantiles are those of the kept values.";
-    let rows = Table::from_rows(caption, &rows).text("", |(label, _)| label).number("", |(_, text)| text);
-    Some(rows.into())
+    let rows: Vec<(String, String)> = rows.into_iter().filter_map(|(label, text)| Some((label, text?))).collect();
+    Some(Table::from_rows(caption, &rows).text("", |(label, _)| label).number("", |(_, text)| text).into())
 }
 
 /// Formats the mean of an output with its error and unit.
@@ -324,9 +361,9 @@ pub(super) fn mean(output: &OutputResult) -> Option<String> {
 pub(super) fn sd(output: &OutputResult) -> Option<String> {
     let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
     let interval = output.variance_interval.and_then(|variance| variance.map(|bound| bound.max(0.0).sqrt()));
-    let is_inside = |sd: &f64| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd));
-    let known = sample.filter(is_inside).or(output.variance.map(f64::sqrt)).or(sample);
-    Some(of_unit(known?, interval, &output.unit))
+    let inside = sample.filter(|sd| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd)));
+    let sd = inside.or(output.variance.map(f64::sqrt)).or(sample)?;
+    Some(of_unit(sd, interval, &output.unit))
 }
 
 fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
@@ -338,28 +375,53 @@ fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
 
 /// Describes the leading terms of the surrogates, and compares the plain indices with the corrected ones.
 pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<Part> {
-    let label = |term: &NamedTerm| {
-        let factor = |(factor, degree): (&String, &usize)| match degree {
-            1 => name(factor),
-            degree => format!("{}^{degree}", name(factor)),
-        };
-        term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
-    };
     let terms = record.leading_terms.iter().filter(|term| term.share >= MIN_TERM_SHARE);
     let caption = "The terms with most of the variance, by the degree in each factor (steps and kinks count too).";
     let terms = Table::from_rows(caption, terms)
-        .text("term", label)
+        .text("term", term_label)
         .number("of the variance", |term| format!("{} %", printed(term.share)));
     let mut parts = vec![terms.into()];
     if let Some(order) = by_total(output) {
-        let plain = |number: usize| record.plain.get(number);
-        let table = Table::from_rows("Indices with and without the surrogate.", order)
-            .text("factor", |(_, index)| name(&index.factor))
-            .number("S_1", |(_, index)| index.effect.first_order)
-            .number("S_1 plain", |(number, _)| plain(number).and_then(|plain| plain.first_order))
-            .number("S_T", |(_, index)| index.effect.total)
-            .number("S_T plain", |(number, _)| plain(number).and_then(|plain| plain.total));
+        let rows = order.into_iter().map(|(number, index)| (index, record.plain.get(number)));
+        let table = Table::from_rows("Indices with and without the surrogate.", rows)
+            .text("factor", |(index, _)| name(&index.factor))
+            .number("S_1", |(index, _)| index.effect.first_order)
+            .number("S_1 plain", |(_, plain)| plain.and_then(|plain| plain.first_order))
+            .number("S_T", |(index, _)| index.effect.total)
+            .number("S_T plain", |(_, plain)| plain.and_then(|plain| plain.total));
         parts.push(table.first(FACTORS_OF_ESTIMATORS, "factors").into());
     }
     parts
+}
+
+/// Formats a term as a product of powers, such as `x1^2 × x2`.
+fn term_label(term: &NamedTerm) -> String {
+    let mut powers = Vec::new();
+    for (factor, degree) in &term.degrees {
+        powers.push(match degree {
+            1 => name(factor),
+            degree => format!("{}^{degree}", name(factor)),
+        });
+    }
+    powers.join(" × ")
+}
+
+/// Returns the measures that any of the records has.
+pub(super) fn measures_of<'a>(records: impl IntoIterator<Item = &'a RunMeasures>) -> Vec<Measure> {
+    let factors: Vec<_> = records.into_iter().flat_map(|record| &record.factors).collect();
+    let measures = Measure::ALL.into_iter();
+    measures.filter(|measure| factors.iter().any(|of| of.measures.contains_key(measure))).collect()
+}
+
+pub(super) fn measures_table_of(output: &OutputResult, record: &RunMeasures, measures: &[Measure]) -> Table {
+    let table = measures_table(&output.name, ("factor", &record.factors), measures);
+    let printed = Some((0..table.rows.len().min(FACTORS)).collect());
+    Table { printed, ..table }
+}
+
+/// Formats the measures of all outputs as CSV.
+fn measures_csv(result: &StudyResult) -> String {
+    let records = || result.outputs.iter().filter_map(|output| Some((output, output.measures.as_ref()?)));
+    let measures = measures_of(records().map(|(_, record)| record));
+    csv(records().map(|(output, record)| measures_table_of(output, record, &measures)))
 }

@@ -48,7 +48,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         notes: &file.notes,
         validity: &file.validity,
         failed_runs: (provenance.failed_runs, provenance.model_runs),
-        study: Some(&file.study),
+        study: Some((&file.study).into()),
         version: &provenance.apportion_version,
         provenance: rows,
         json: json(file),
@@ -59,7 +59,6 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
 
 /// Tabulates the factors of an output by rank.
 fn effects(output: &ScreenedOutput) -> Table {
-    let plain = |estimate: Option<Estimate>| or_dash(estimate, |estimate| short(estimate.estimate));
     let caption = format!(
         "Elementary effects on {} per full range of each factor: mean size μ* with its 95 % interval, mean μ, standard \
          deviation σ.",
@@ -67,7 +66,6 @@ fn effects(output: &ScreenedOutput) -> Table {
     );
     let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
     ranked.sort_by_key(|&place| output.factors[place].rank);
-    let reading = |factor: &ScreenedFactor| factor.reading.map(|reading| reading.words());
     let rows = Table::from_rows(caption, &output.factors)
         .file("output", |_| &output.name)
         .file("unit", |_| &output.unit)
@@ -76,19 +74,24 @@ fn effects(output: &ScreenedOutput) -> Table {
         .file("rank", |factor| factor.rank as u64)
         .number("μ*", |factor| or_dash(factor.mu_star, index))
         .estimate("mu_star", |factor| factor.mu_star)
-        .number("μ", |factor| plain(factor.mu))
+        .number("μ", |factor| without_error(factor.mu))
         .estimate("mu", |factor| factor.mu)
-        .number("σ", |factor| plain(factor.sigma))
+        .number("σ", |factor| without_error(factor.sigma))
         .estimate("sigma", |factor| factor.sigma)
-        .number("σ/μ*", |factor| plain(factor.ratio))
+        .number("σ/μ*", |factor| without_error(factor.ratio))
         .estimate("ratio", |factor| factor.ratio)
-        .text("reading", |factor| reading(factor).unwrap_or("–"))
-        .value("reading", reading)
+        .text("reading", |factor| factor.reading.map_or("–", Reading::words))
+        .value("reading", |factor| factor.reading.map(Reading::words))
         .text("could be fixed", |factor| factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" }))
         .value("could_be_fixed", |factor| factor.could_be_fixed)
         .file("effects", |factor| factor.effects)
         .file("dropped", |factor| factor.dropped);
     rows.largest(ranked, FACTORS, IN_CSV).into()
+}
+
+/// Formats an estimate without its error; a dash for `None`.
+fn without_error(estimate: Option<Estimate>) -> String {
+    or_dash(estimate, |estimate| short(estimate.estimate))
 }
 
 /// Says which factors could be fixed, and by which rule.
@@ -129,14 +132,14 @@ fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
 
 /// Draws mu* against sigma.
 pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
-    let known: Vec<(&ScreenedFactor, f64, f64)> = output
+    let effects: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
         .iter()
         .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
         .collect();
     let points = readings().flat_map(|reading| {
-        let own = known.iter().filter(move |(factor, ..)| factor.reading == reading);
-        own.map(move |&(factor, x, y)| {
+        let members = effects.iter().filter(move |(factor, ..)| factor.reading == reading);
+        members.map(move |&(factor, x, y)| {
             // Those without effect all lie at the origin; the caption names them.
             let label = reading.map_or_else(String::new, |_| words(&factor.factor));
             series(reading).mark(Shape::Point(Point { x, y, label }))
@@ -148,7 +151,7 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         file.provenance.trajectories,
         leader(output)
     );
-    let (right, top) = known.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
+    let (right, top) = effects.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
     let slopes =
         [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
     let slopes = slopes.map(|(slope, name, stroke)| {
@@ -167,13 +170,13 @@ fn readings() -> impl Iterator<Item = Option<Reading>> {
 /// Draws mu* with its intervals.
 pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let bars = readings().flat_map(|reading| {
-        let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
-        own.filter_map(move |(row, factor)| {
+        let members = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
+        members.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
             let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
             let label = index_with_unit(mu_star, &output.unit) + fixed;
-            let (to, interval, said) = (mu_star.estimate, mu_star.interval.map(|i| (i.low, i.high)), label.clone());
-            let bar = Bar { row, to, interval, label, said, ..Bar::default() };
+            let interval = mu_star.interval.map(|i| (i.low, i.high));
+            let bar = Bar { row, to: mu_star.estimate, interval, value_text: label.clone(), label, ..Bar::default() };
             // A bar of zero length would still add a colour to the legend.
             let series = if reading.is_some() { series(reading) } else { Series::default() };
             Some(series.mark(Shape::Bar(bar)))
@@ -194,13 +197,13 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
 
 /// Says which factor matters most.
 pub(super) fn leader(output: &ScreenedOutput) -> String {
-    let contender = |factor: &ScreenedFactor| {
-        let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
-        Some(Contender::new(name(&factor.factor), total))
-    };
-    let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
+    let mut moving = Vec::new();
+    for factor in &output.factors {
+        let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0);
+        moving.extend(total.map(|total| Contender::new(name(&factor.factor), total)));
+    }
     let output_name = name(&output.name);
     let measure = "mean effect size μ*";
-    let found = leading::leader(&moving, &format!("For {output_name}"), measure, &axis_unit(&output.unit));
-    found.unwrap_or_else(|| format!("No factor has any effect on {output_name}."))
+    let sentence = leading::leader(&moving, &format!("For {output_name}"), measure, &axis_unit(&output.unit));
+    sentence.unwrap_or_else(|| format!("No factor has any effect on {output_name}."))
 }

@@ -8,13 +8,13 @@ use apportion::design::Sampler;
 use apportion::model::Model;
 use apportion::result::{RunFacts, StudySetup, ValidityRecord};
 use apportion::screening::{FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign};
-use apportion::space::{Distribution, Factor};
+use apportion::space::Distribution;
 use apportion::study::Study;
 use serde::{Deserialize, Serialize};
 
 use crate::with_unit;
 
-/// A whole screening.
+/// A screening.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreeningFile {
     /// Always `apportion-screening`.
@@ -107,22 +107,20 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
 }
 
 fn notes(study: &Study) -> Vec<String> {
-    let with_law = |factor: &Factor| format!("{} ({})", factor.name, factor.distribution().name());
-    let with_value =
-        |factor: &Factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol()));
-    // A note about the factors that satisfy `holds`, if there are any.
-    let about = |text: &str, holds: &dyn Fn(&Distribution) -> bool, said: &dyn Fn(&Factor) -> String| {
-        let factors = study.space().factors().iter().filter(|factor| holds(factor.distribution()));
-        let factors: Vec<String> = factors.map(said).collect();
-        (!factors.is_empty()).then(|| format!("{text} {}", factors.join(", ")))
-    };
+    let (mut bent, mut constant) = (Vec::new(), Vec::new());
+    for factor in study.space().factors() {
+        match factor.distribution() {
+            Distribution::Uniform(_) => (),
+            Distribution::Constant(_) => {
+                constant.push(format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol())));
+            }
+            law if law.levels().is_none() && !law.is_whole() => bent.push(format!("{} ({})", factor.name, law.name())),
+            _ => (),
+        }
+    }
     let text = "effects are per step in probability, so sigma of factors that are not uniform includes the curvature of their \
                 distribution:";
-    let is_bent = |law: &Distribution| {
-        let is_continuous = law.levels().is_none() && !law.is_whole();
-        is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))
-    };
-    let is_constant = |law: &Distribution| matches!(law, Distribution::Constant(_));
-    let bent = about(text, &is_bent, &with_law);
-    bent.into_iter().chain(about("constant, hence without effect:", &is_constant, &with_value)).collect()
+    let notes = [(text, bent), ("constant, hence without effect:", constant)].into_iter();
+    let notes = notes.filter(|(_, factors)| !factors.is_empty());
+    notes.map(|(text, factors)| format!("{text} {}", factors.join(", "))).collect()
 }

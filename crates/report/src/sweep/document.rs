@@ -38,7 +38,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         outputs: outputs.collect(),
         then: vec![Section::new("curves", "Outputs against each factor", parts)],
         validity: &file.validity,
-        study: Some(&file.study),
+        study: Some((&file.study).into()),
         version: &file.provenance.apportion_version,
         provenance: vec![("model runs", grouped(file.provenance.model_runs))],
         json: json(file),
@@ -90,21 +90,20 @@ fn at_nominal(nominal: &NominalOutput) -> String {
 
 /// Tabulates how far each factor changes an output, the widest first.
 fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
-    let in_unit = |what: &str| heading(what, &nominal.unit);
     let caption = format!(
         "Effect of each factor alone on {}, with all others nominal, the widest range first.",
         name(&nominal.output)
     );
-    let said = |value: Option<f64>| or_dash(value, short);
+    let [from, to, least, largest] = ["output from", "to", "least", "largest"].map(|what| heading(what, &nominal.unit));
     Table::from_rows(caption, by_width(file, number))
         .text("factor", |(sweep, _)| name(&sweep.factor))
         .number("from", |(sweep, _)| value_in_words(sweep, 0))
         .number("to", |(sweep, _)| value_in_words(sweep, sweep.values.len().saturating_sub(1)))
-        .number(in_unit("output from"), |(_, effect)| said(effect.values.first().copied().flatten()))
-        .number(in_unit("to"), |(_, effect)| said(effect.values.last().copied().flatten()))
-        .number(in_unit("least"), |(_, effect)| said(effect.low))
-        .number(in_unit("largest"), |(_, effect)| said(effect.high))
-        .number("moves by %", |(_, effect)| said(effect.percent))
+        .number(from, |(_, effect)| or_dash(effect.values.first().copied().flatten(), short))
+        .number(to, |(_, effect)| or_dash(effect.values.last().copied().flatten(), short))
+        .number(least, |(_, effect)| or_dash(effect.low, short))
+        .number(largest, |(_, effect)| or_dash(effect.high, short))
+        .number("moves by %", |(_, effect)| or_dash(effect.percent, short))
         .into()
 }
 
@@ -165,19 +164,17 @@ fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
             Spacing::Linear
         }),
     };
-    let panel = |(number, nominal): (usize, &NominalOutput)| {
-        let spacing = if is_wide(&sweep.outputs[number]) { Spacing::Logarithmic } else { Spacing::Linear };
-        let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
-        let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| ChartMark::rule(x, "nominal"));
-        Panel::new(x.clone(), y).with([line(sweep, &sweep.outputs[number])]).with(rule)
-    };
-    let mut axes: Vec<String> = file
-        .nominal
-        .iter()
-        .enumerate()
-        .filter(|(number, _)| is_wide(&sweep.outputs[*number]))
-        .map(|(_, nominal)| name(&nominal.output))
-        .collect();
+    let (mut panels, mut axes) = (Vec::new(), Vec::new());
+    for (nominal, output) in file.nominal.iter().zip(&sweep.outputs) {
+        let mut y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
+        if is_wide(output) {
+            y.spacing = Spacing::Logarithmic;
+            axes.push(name(&nominal.output));
+        }
+        // The label of the nominal value is above the first panel.
+        let rule = place_of(sweep, sweep.nominal).filter(|_| panels.is_empty()).map(|x| ChartMark::rule(x, "nominal"));
+        panels.push(Panel::new(x.clone(), y).with([line(sweep, output)]).with(rule));
+    }
     if logarithmic {
         axes.insert(0, words(&sweep.factor));
     }
@@ -187,7 +184,7 @@ fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
         _ => format!(" The axes of {} are logarithmic.", listed(&axes)),
     };
     Chart::new(format!("{}: {}", file.study.headline(), words(&sweep.factor)), caption(sweep) + &logarithmic_axes)
-        .panels(file.nominal.iter().enumerate().map(panel))
+        .panels(panels)
 }
 
 /// Returns the position of a value on the horizontal axis: categories are evenly spaced, numbers are at their value.
@@ -246,7 +243,6 @@ fn from_to(sweep: &Sweep) -> String {
 }
 
 fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
-    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(
         "Values of {output} with one factor at either end of its range and all others at nominal values; the percentages are \
@@ -254,35 +250,38 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
         not_drawn(file.sweeps.len(), MAX_BARS)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
-    let row_name = |(sweep, effect): (&Sweep, &SweptOutput)| {
+    let (mut rows, mut marks, mut keys) = (Vec::new(), Vec::new(), Vec::new());
+    if let Some(value) = nominal.value {
+        marks.push(ChartMark::rule(value, format!("nominal: {}", short_with_unit(value, &nominal.unit))));
+    }
+    for sweep in &file.sweeps {
+        let Some(effect) = sweep.outputs.get(number) else { continue };
         let percent = effect.percent.map_or_else(String::new, |percent| format!(" by {} %", printed(percent)));
-        format!("{}{percent}: {}", words(&sweep.factor), from_to(sweep))
-    };
-    let rows = Axis::from_names("", sweeps().map(row_name).collect());
-    let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
-    let marks = sweeps().enumerate();
-    let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
-    let keys: Vec<f64> = sweeps().map(|(_, effect)| width(effect)).collect();
-    let panel = Panel::new(x, rows).with(nominal.value.map(|value| ChartMark::rule(value, label(value)))).with(marks);
+        marks.extend(row_marks(rows.len(), sweep, effect, nominal.value));
+        rows.push(format!("{}{percent}: {}", words(&sweep.factor), from_to(sweep)));
+        keys.push(width(effect));
+    }
+    let panel = Panel::new(x, Axis::from_names("", rows)).with(marks);
     let title = format!("{}: effect of each factor on {output}", file.study.headline());
     Chart::new(title, caption).panels([panel.ranked(&keys, MAX_BARS)])
 }
 
 /// Draws the bars of a factor: its ends, or its whole range if these are not the extremes.
 fn row_marks(row: usize, sweep: &Sweep, effect: &SweptOutput, nominal: Option<f64>) -> Vec<ChartMark> {
-    let bar = |name: &str, colour, from, to| {
-        Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
-    };
-    let end = |value: Option<&Option<f64>>| value.copied().flatten();
-    let (first, last) = (end(effect.values.first()), end(effect.values.last()));
-    let ends = || [first, last, nominal].into_iter().flatten();
-    let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
-    match (nominal, effect.low.zip(effect.high)) {
-        (_, None) => Vec::new(),
-        (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
-            bar("factor at its low end", LOW_END, from, first.unwrap_or(f64::NAN)),
-            bar("factor at its high end", HIGH_END, from, last.unwrap_or(f64::NAN)),
+    let [first, last] = [effect.values.first(), effect.values.last()].map(|value| value.copied().flatten());
+    let Some((low, high)) = effect.low.zip(effect.high) else { return Vec::new() };
+    let mut ends = [first, last, nominal].into_iter().flatten();
+    let is_extreme_inside = ends.clone().all(|end| end > low) || ends.all(|end| end < high);
+    let bars = match nominal {
+        Some(from) if sweep.labels.is_none() && !is_extreme_inside => vec![
+            ("factor at its low end", LOW_END, from, first.unwrap_or(f64::NAN)),
+            ("factor at its high end", HIGH_END, from, last.unwrap_or(f64::NAN)),
         ],
-        (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
-    }
+        _ => vec![("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
+    };
+    let bars = bars.into_iter();
+    bars.map(|(name, colour, from, to)| {
+        Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
+    })
+    .collect()
 }

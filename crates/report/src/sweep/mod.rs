@@ -3,7 +3,7 @@
 mod document;
 mod record;
 
-use apportion::sweep::{Gap, Sweep};
+use apportion::sweep::Sweep;
 pub use document::sweep_document;
 pub use record::{SweepFile, SweepProvenance, build_sweep};
 
@@ -13,8 +13,10 @@ use crate::document::grouped_by_key;
 fn gap_lines(sweep: &Sweep) -> Vec<String> {
     let gaps = sweep.outputs.iter().flat_map(|output| output.gaps.iter().map(|gap| ((&output.name, &gap.reason), gap)));
     let points = sweep.values.len();
-    let line = |((name, reason), gaps): ((&String, &String), Vec<&Gap>)| {
-        format!("{name} at {} of {points} points of {}: {reason}", gaps.len(), sweep.factor)
-    };
-    grouped_by_key(gaps).into_iter().map(line).collect()
+    let groups = grouped_by_key(gaps).into_iter();
+    groups
+        .map(|((name, reason), gaps)| {
+            format!("{name} at {} of {points} points of {}: {reason}", gaps.len(), sweep.factor)
+        })
+        .collect()
 }

@@ -62,7 +62,7 @@ pub(super) fn width(output: &SweptOutput) -> f64 {
 fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
     let values = sweeps.sweeps.iter().flat_map(|sweep| &sweep.outputs[place].values);
     let values: Vec<f64> = values.map(|y| y.unwrap_or(f64::NAN)).collect();
-    Unlikely::find(&values).map(|found| format!("{output}: {}", found.in_runs(found.first + 1)))
+    Unlikely::find(&values).map(|value| format!("{output}: {}", value.in_runs(value.first + 1)))
 }
 
 /// Builds the file of the sweeps of `study`, whose model is `model`.

@@ -116,7 +116,7 @@ proptest! {
     fn any_text_survives_as_text(text in any::<String>()) {
         // Symbols are in parts; XML forbids the last characters.
         let text = text.replace('_', " ") + "\u{1f}\u{ffff}";
-        let bar = Bar { to: 1.0, label: text.clone(), said: text.clone(), ..Bar::default() };
+        let bar = Bar { to: 1.0, label: text.clone(), value_text: text.clone(), ..Bar::default() };
         let panel = Panel::new(Axis::new("", ""), Axis::from_names("", vec!["row".to_owned()]));
         let chart = Chart::new(&text, "").panels([panel.with([series(0).mark(Shape::Bar(bar))])]);
         let expected: String = text

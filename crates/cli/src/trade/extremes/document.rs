@@ -68,7 +68,7 @@ pub fn extremes_document(study: &Study, seed: u64, map: Extremes) -> Document {
             Section::new("map", "The map", parts),
             Section::new("reasons", "Reasons", reasons.into_iter().collect()),
         ],
-        study: Some(&file.study),
+        study: Some((&file.study).into()),
         version: &file.apportion_version,
         provenance: vec![("points", grouped(map.points)), ("seed", file.seed.to_string())],
         json: json(file),

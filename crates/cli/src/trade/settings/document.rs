@@ -30,7 +30,7 @@ pub fn settings_document(file: &Comparison) -> Document {
             Section::new("rungs", "What the rungs cost", rung_table(file).into_iter().collect()),
             Section::new("all", "Every setting", vec![all(file)]),
         ],
-        study: Some(&file.study),
+        study: Some((&file.study).into()),
         version: &file.apportion_version,
         provenance: vec![
             ("threads", file.threads.to_string()),

@@ -57,7 +57,7 @@ fn alone(figure: &PaperFigure) -> Figure {
         id: figure.stem.to_owned(),
         label: figure.label.clone(),
         title: None,
-        beside: match figure.label.split_once(" fig") {
+        comparison_note: match figure.label.split_once(" fig") {
             Some(_) => theirs(figure),
             None => figure.theirs.to_owned(),
         },
@@ -81,7 +81,7 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
         labels.push(member.label.as_str());
         statements.push(theirs(member));
     }
-    Some(Figure { label: labels.join(", "), beside: statements.join(" "), ..alone(figure) })
+    Some(Figure { label: labels.join(", "), comparison_note: statements.join(" "), ..alone(figure) })
 }
 
 /// Embeds the animation of the push.

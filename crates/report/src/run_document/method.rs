@@ -1,0 +1,105 @@
+//! How a result was computed: the cost of the run, what it chose, and its provenance.
+
+use apportion::result::{AccuracyRecord, StudyResult};
+use apportion_base::text::capitalised;
+
+use crate::document::{Mark, Part, Table};
+use crate::format::{grouped, printed, round_significant, significant};
+use crate::wording::lines_to_repeat;
+
+/// Describes the cost of the run.
+pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
+    let provenance = &result.provenance;
+    let seconds = provenance.wall_seconds;
+    let mut rows = vec![
+        ("model runs", grouped(provenance.model_runs)),
+        ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates)),
+        ("time", format!("{} s", printed(seconds))),
+        ("threads", provenance.threads.to_string()),
+    ];
+    if provenance.plain_rows > 0 {
+        rows.insert(2, ("plain rows of each, for surrogates", provenance.plain_rows.to_string()));
+    }
+    if seconds > 0.0 {
+        let rate = (provenance.model_runs as f64 / seconds).round() as u64;
+        rows.push(("runs per second", grouped(rate)));
+    }
+    let mut parts = vec![Part::OnPage(vec![Table::pairs("Cost of the run.", rows).into()])];
+    if let Some(effort) = &result.effort {
+        let rungs: Vec<String> = effort.rungs.iter().map(|r| format!("{} {}", r.rung, grouped(r.runs))).collect();
+        let rows = [
+            ("runs by fidelity", rungs.join(", ")),
+            ("evaluations", grouped(effort.evaluations)),
+            ("largest error estimate", format!("{:.1e} (relative)", effort.largest_error_estimate)),
+        ];
+        parts.push(Table::pairs("Fidelities used.", rows).into());
+    }
+    let low_fidelity: Vec<String> = result
+        .low_fidelity
+        .iter()
+        .map(|low| {
+            let (shared, additional) = (grouped(low.shared_runs), grouped(low.own_runs));
+            format!("{} ({shared} at the rows of the model, {additional} at additional points)", low.name)
+        })
+        .collect();
+    if !low_fidelity.is_empty() {
+        parts.push(Part::Text(format!("Low-fidelity models: {}.", low_fidelity.join(", "))));
+    }
+    if let Some(spending) = &result.spending {
+        parts.push(Part::Notice {
+            mark: Mark::Plain,
+            kind: "What the run chose".to_owned(),
+            texts: chosen(result, spending),
+        });
+        parts.extend(lines_to_repeat(result).map(Part::Code));
+    }
+    if let Some(stopping) = &result.stopping {
+        let (kind, mark) = match stopping.target_met {
+            Some(true) => ("Target met", Mark::Good),
+            Some(false) => ("Target not met", Mark::Mixed),
+            None => ("Why the run ended", Mark::Plain),
+        };
+        parts.push(Part::Notice { mark, kind: kind.to_owned(), texts: vec![format!("{}.", stopping.reason)] });
+    }
+    parts
+}
+
+/// Describes what a run with a target accuracy chose, why, and what it saved.
+fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
+    let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
+    let spent = grouped(spending.runs);
+    let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
+    texts.push(match saved {
+        Some(plain) => format!(
+            "An accuracy of {} took {spent} runs of the model, trials included; without surrogates and cheaper models it would \
+             take {} or more.",
+            significant(spending.accuracy),
+            grouped(round_significant(plain as f64, 2) as u64)
+        ),
+        None => format!("An accuracy of {} took {spent} runs of the model, trials included.", significant(spending.accuracy)),
+    });
+    texts.push("These lines instead of `accuracy` repeat the same run exactly.".to_owned());
+    texts
+}
+
+pub(super) const CITATION: &str = "The same study file, seed and version give the same numbers, on any number of threads. Cite the result by these \
+                        three, with the digest (SHA-256) for the study file; CITATION.cff in the sources of the program says how to \
+                        cite the program.";
+
+/// Describes how the result was computed, in addition to program and study.
+pub(super) fn provenance(result: &StudyResult) -> Vec<(&'static str, String)> {
+    let provenance = &result.provenance;
+    let mut rows = vec![
+        ("sampler", provenance.sampler.name().to_owned()),
+        ("seed", provenance.seed.to_string()),
+        ("base points", grouped(provenance.base_samples)),
+        ("replicates", provenance.replicates.to_string()),
+        ("first-order indices", provenance.first_order_estimator.clone()),
+        ("total indices", provenance.total_estimator.clone()),
+        ("intervals", provenance.interval().unwrap_or_else(|| "none: a single replicate".to_owned())),
+    ];
+    if !provenance.model_files.is_empty() {
+        rows.push(("files of the model that a journal depends on", provenance.model_files.join(", ")));
+    }
+    rows
+}
