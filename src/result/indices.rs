@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::correction::{LowFidelityUse, NamedTerm};
+use crate::correction::LowFidelityUse;
+use crate::surrogate::NamedTerm;
 use crate::uncertainty::{EffectEstimates, Estimate};
 
 /// The indices of one factor, or of a group in place of its factors.

@@ -266,7 +266,7 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
 }
 
 /// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
-pub(super) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
+pub(crate) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
     match list.iter_mut().find(|(other, _)| *other == key) {
         Some((_, sum)) => *sum += more,
         None => list.push((key, more)),
@@ -279,7 +279,7 @@ fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
 }
 
 /// Returns the degree of a term with no other factor than this one.
-pub(super) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
+pub(crate) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
     match term[..] {
         [(other, degree)] if other == factor => Some(degree),
         _ => None,
@@ -325,7 +325,7 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
 }
 
 /// Returns the polynomials p_1, p_2, ... at `x`, of which p_(n+1) is `next`(n, x, p_n, p_(n-1)); p_0 = 1, p_(-1) = 0.
-pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
+pub(crate) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
     let (mut before, mut now) = (vec![0.0; x.len()], vec![1.0; x.len()]);
     let mut columns = Vec::with_capacity(degree);
     for n in 0..degree {

@@ -139,7 +139,7 @@ fn first_smallest(numbers: impl Iterator<Item = f64>) -> usize {
 }
 
 /// Returns the members of `list` except number `left_out`.
-pub(super) fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
+pub(crate) fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
     list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
 }
 

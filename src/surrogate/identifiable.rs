@@ -22,7 +22,7 @@ const ROWS: usize = 2000;
 pub struct IdentifiableTerms<'a> {
     nets: &'a [Net],
     /// The other limits on the terms.
-    pub(super) caps: Caps<'a>,
+    pub(crate) caps: Caps<'a>,
     /// For each factor, the highest degree up to which the rows of every net can determine all polynomials.
     degrees: Vec<usize>,
     /// For each net, the rows by which products are judged.

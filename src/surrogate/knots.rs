@@ -12,7 +12,7 @@ use super::gram::{Square, add_scaled, inverse, lower_factor};
 use super::net::Net;
 use super::orthogonal::rule;
 use super::outputs::OutputTable;
-use crate::correction::Knot;
+use super::terms::Knot;
 
 /// Maximum number of knots of a factor.
 const MAX_KNOTS: usize = 4;
@@ -124,7 +124,7 @@ impl Knotted {
 
     /// Places the knots of `factor` by the output of `nets`, given the values of expansions with `moved` knots and the
     /// `coefficients` (index, coefficient) of the functions of the factor.
-    pub(super) fn placed(
+    pub(crate) fn placed(
         &self,
         nets: &[Net],
         moved: &MovedValues,
@@ -153,7 +153,7 @@ impl Knotted {
 }
 
 /// Values of expansions of all nets with all knots moved to the left and to the right as far as allowed.
-pub(super) struct MovedValues {
+pub(crate) struct MovedValues {
     pub left: Vec<OutputTable>,
     pub right: Vec<OutputTable>,
 }
@@ -189,7 +189,7 @@ fn placed_step(knot: Knot, nets: &[Net], moved: &MovedValues, factor: usize) -> 
 
 /// Returns the knots of `factor` that the residuals `rest` of expansions show; none for seeds and factors with few
 /// levels.
-pub(super) fn knots(nets: &[Net], rest: &[OutputTable], factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
+pub(crate) fn knots(nets: &[Net], rest: &[OutputTable], factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
     let points: usize = nets.iter().map(Net::points).sum();
     let bins = (points / POINTS_OF_BIN).next_power_of_two().clamp(MIN_BINS, MAX_BINS);
     let centres: Vec<f64> = (0..bins).map(|bin| (bin as f64 + 0.5) / bins as f64).collect();

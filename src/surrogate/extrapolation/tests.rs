@@ -1,6 +1,6 @@
 use super::*;
-use crate::correction::Knot;
 use crate::space::Distribution;
+use crate::surrogate::Knot;
 use crate::surrogate::knots::Knotted;
 use apportion_base::special::{normal_below, normal_quantile};
 
