@@ -21,9 +21,11 @@ use super::surrogate_use::LowFidelityUse;
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::{Caps, Family, Term, add_to};
+use crate::surrogate::basis::{Caps, Term, add_to};
+use crate::surrogate::family::Family;
 use crate::surrogate::fit::Expansion;
-use crate::surrogate::net::{Net, values_and_rest};
+use crate::surrogate::fit::values_and_rest;
+use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
 use crate::surrogate::{
     Effects, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,

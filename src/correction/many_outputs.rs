@@ -12,10 +12,12 @@ use super::nets::{Corrected, estimates, in_chunks};
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::{Caps, Family, Term, degree_alone};
+use crate::surrogate::basis::{Caps, Term, degree_alone};
+use crate::surrogate::family::{Family, Knotted};
+use crate::surrogate::fit::values_and_rest;
 use crate::surrogate::fit::{Expansion, Training};
-use crate::surrogate::knots::{Knotted, MAX_MOVED, MovedValues, knots};
-use crate::surrogate::net::{Net, values_and_rest};
+use crate::surrogate::knots::{MAX_MOVED, MovedValues, knots};
+use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, ScaledOutput};
 use crate::surrogate::{
     ChosenTerms, Effects, Knot, MAX_HERMITE_DEGREES, Trial, fewest_points, fitted_design, fitted_to_others,

@@ -11,7 +11,8 @@
 
 use std::collections::BTreeMap;
 
-use super::basis::{Family, Term, polynomials};
+use super::basis::Term;
+use super::family::{Family, polynomials};
 use super::fit::Expansion;
 use super::terms::{Effects, is_interaction, touches, within};
 

@@ -7,7 +7,8 @@
 //! rows of every net is close to 1, and a factor with a thin tail has polynomials only if that of degree 1 has this
 //! over all nets together.
 
-use super::basis::{Caps, Family, Term};
+use super::basis::{Caps, Term};
+use super::family::Family;
 use super::net::{Net, Spread};
 
 /// Allowed range of the mean square of a term over the rows of a net. If half as many rows as expected have a level,

@@ -3,6 +3,7 @@
 pub(crate) mod basis;
 mod cross_fit;
 pub(crate) mod extrapolation;
+pub(crate) mod family;
 pub(crate) mod fit;
 pub(crate) mod gram;
 mod identifiable;
@@ -12,12 +13,14 @@ mod orthogonal;
 pub(crate) mod outputs;
 mod terms;
 
-pub use basis::{Caps, Family};
+pub use basis::Caps;
 pub use cross_fit::cross_fitted;
 pub(crate) use cross_fit::{expansion_without, fitted_to_others};
+pub use family::Family;
+pub(crate) use family::Knot;
 pub use fit::Expansion;
 pub use net::Net;
-pub(crate) use terms::{ChosenTerms, Effects, Knot, is_interaction, leading_terms, touches, within};
+pub(crate) use terms::{ChosenTerms, Effects, is_interaction, leading_terms, touches, within};
 pub use terms::{NamedTerm, SurrogateTerm};
 
 use crate::design::{Design, Sampler};

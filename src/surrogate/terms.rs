@@ -5,23 +5,13 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::basis::{Term, add_to};
+use super::family::Knot;
 use super::fit::Expansion;
 use crate::design::Design;
 use crate::effect::Layout;
 
 /// Number of terms that are reported.
 const MAX_LEADING_TERMS: usize = 12;
-
-/// The place of a step or a kink of an output in a factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Knot {
-    /// The quantile.
-    pub u: f64,
-    /// Width of the range of quantiles that contains it.
-    pub width: f64,
-    /// Whether it is a step rather than a kink.
-    pub is_step: bool,
-}
 
 /// The terms of the surrogates of every net.
 #[derive(Debug, Clone, PartialEq)]
