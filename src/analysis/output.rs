@@ -15,9 +15,10 @@ use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
 use crate::model::{Output, RowFailure};
-use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning};
+use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
+use crate::study::Study;
 use crate::uncertainty::{Estimate, KeptPoints, OutputMoments};
 use apportion_base::quantity::Unit;
 
@@ -95,7 +96,6 @@ pub(super) fn output_result(
         });
         convergence = stages.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect();
     }
-    let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
     let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
     let mut result = OutputResult {
         name: output.name.to_string(),
@@ -119,13 +119,27 @@ pub(super) fn output_result(
         add_indices(&mut result, study, indices);
     }
     if let Some(rows) = &rows.scatter {
+        let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
         result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
-        // The inputs at points of SALib are unknown; a series has pictures as a whole.
-        let is_of_factors = !study.analysis.salib && study.analysis.indices_of == IndicesOf::Factors;
-        let indices = result.indices.as_deref().filter(|_| is_of_factors && !is_item);
-        result.scatter = indices.and_then(|indices| scatter_record(rows, &study.space, (unit, &samples), indices));
+        if !is_item {
+            result.scatter = scatter(study, &result, rows, &samples, unit);
+        }
     }
     result
+}
+
+/// Returns the relation of the `samples` of an output to its most influential factors; `None` without indices of
+/// factors, and at points of SALib, whose inputs are unknown.
+fn scatter(
+    study: &Study,
+    result: &OutputResult,
+    rows: &FirstRows,
+    samples: &[Vec<f64>],
+    unit: &Unit,
+) -> Option<ScatterRecord> {
+    let is_of_factors = !study.analysis.salib && study.analysis.indices_of == IndicesOf::Factors;
+    let indices = result.indices.as_deref().filter(|_| is_of_factors)?;
+    scatter_record(rows, &study.space, (unit, samples), indices)
 }
 
 /// Computes mean and variance of all successful rows A and B. The indices use the `points` base points at which both

@@ -6,15 +6,9 @@
 
 use super::error::CorrectionError;
 use super::influenced::EstimateWithInfluences;
-use super::replace::OfKind;
+use super::kind::Corrected;
 use crate::effect::{EffectQuantities, Layout, NoisePairing, Quantities};
 use crate::uncertainty::{Estimate, Interval, Judgement};
-
-/// The kinds of indices that are corrected; `None` for a kind whose plain ones stay.
-pub(super) struct Corrected<'a> {
-    pub first_order: Option<&'a OfKind>,
-    pub total: Option<&'a OfKind>,
-}
 
 /// The variance of the mean over the noise, as a share of the variance of a single run.
 struct MeanShare<'a> {

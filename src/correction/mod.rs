@@ -6,6 +6,7 @@ mod contributions;
 mod error;
 mod estimates;
 mod influenced;
+mod kind;
 mod low_fidelity;
 mod many_outputs;
 mod mean;

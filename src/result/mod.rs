@@ -33,7 +33,7 @@ pub use warning::{IndexKind, Irreproducible, Warning};
 use crate::design::Sampler;
 use crate::estimate::Scaling;
 use crate::space::{CorrelationMeasure, IndicesOf};
-use crate::study::SurrogateChoice;
+use crate::surrogate::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
 /// The result of a run of a [`Study`](crate::Study).

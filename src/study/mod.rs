@@ -13,9 +13,10 @@ mod subject;
 
 use std::sync::Arc;
 
+pub use crate::surrogate::SurrogateChoice;
 pub use build_error::BuildError;
 pub use builder::StudyBuilder;
-pub use options::{AnalysisOptions, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, Target};
 use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
 use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};

@@ -2,17 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use serde::{Deserialize, Serialize};
-
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, proper_subsets};
 use crate::given::Measure;
 use crate::result::Warning;
 use crate::run::FailurePolicy;
 use crate::space::{Group, IndicesOf, Space};
-use crate::surrogate::MIN_NETS;
+use crate::surrogate::{MIN_NETS, SurrogateChoice};
 use crate::uncertainty::IntervalMethod;
-use apportion_base::names::named;
 
 /// What to estimate from the runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,24 +119,6 @@ impl AnalysisOptions {
             && replicates >= MIN_NETS as u64
             && space.copula().is_none()
             && !self.has_shapley(space)
-    }
-}
-
-named! {
-    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are exact, so
-    /// that the runs only need to estimate the remainder ([`crate::surrogate`]).
-    #[derive(Default, Serialize, Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-    #[serde(rename_all = "kebab-case")]
-    pub enum SurrogateChoice {
-        /// Never.
-        Off = "off",
-        /// For up to 2^16 rows times outputs, and for programs up to 2^22; for up to 2^20 of fast models if a fit to
-        /// some of the rows explains so much that more runs in the time of the correction would gain less.
-        #[default]
-        Auto = "auto",
-        /// For every run whose points are Sobol' nets or random, and whose outputs fit into memory.
-        On = "on",
     }
 }
 

@@ -1,6 +1,7 @@
 //! Surrogates: sparse polynomial chaos expansions, fitted to the runs of all nets but one.
 
 pub(crate) mod basis;
+mod choice;
 mod cross_fit;
 pub(crate) mod extrapolation;
 pub(crate) mod family;
@@ -14,6 +15,7 @@ pub(crate) mod outputs;
 mod terms;
 
 pub use basis::Caps;
+pub use choice::SurrogateChoice;
 pub use cross_fit::cross_fitted;
 pub(crate) use cross_fit::{expansion_without, fitted_to_others};
 pub use family::Family;

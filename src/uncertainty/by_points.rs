@@ -3,8 +3,8 @@
 use super::bootstrap::resampled;
 use super::delta::delta_errors;
 use super::method::IntervalMethod;
-use super::net_decay::StandardError;
 use super::points::KeptPoints;
+use super::standard_error::StandardError;
 use super::{Interval, LEVEL, t_interval};
 use crate::estimate::{Moments, Products};
 

@@ -11,7 +11,7 @@
 //! Measured on 29 functions at N = 256 and 1024, 200 seeds (`benches/coverage.rs`): the mean coverage of seven
 //! functions with rare, large outputs rose from .88 to .95, that of the others stayed at .95 to .96.
 
-use super::net_decay::{PartInfluences, StandardError};
+use super::standard_error::{PartInfluences, Side, StandardError};
 use super::{Interval, t_quantile};
 
 /// Maximum excess kurtosis of a sum of many terms: up to this, no interval would grow by more than a twentieth.
@@ -23,15 +23,6 @@ const WEIGHT: f64 = 1.5;
 
 /// Minimum degrees of freedom of the longer side: t = 6.0.
 const MIN_FREEDOM: f64 = 1.5;
-
-/// The sides of an estimate on which the true value may be if few rows dominate it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Side {
-    /// Above: a sum of contributions of one sign, such as an index or a variance.
-    Above,
-    /// On both: a difference, a share, a mean.
-    Both,
-}
 
 /// Returns the t-interval about `estimate`, longer on `side` if few rows dominate the estimate.
 pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluences, side: Side) -> Option<Interval> {

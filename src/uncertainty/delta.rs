@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::net_decay::StandardError;
 use super::points::KeptPoints;
+use super::standard_error::StandardError;
 use crate::estimate::{Moments, Products};
 
 /// Returns the standard errors sqrt(sum (U - mean)^2/(n (n - 1))) of the results of `quantities`, with n - 1 degrees of

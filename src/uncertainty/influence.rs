@@ -1,6 +1,6 @@
 //! The influence of each part of the runs on the estimates.
 
-use super::net_decay::PartInfluences;
+use super::standard_error::PartInfluences;
 use crate::estimate::{MomentParts, Moments, merged};
 
 /// Quantities estimated from all parts of all replicates together, and the influence of each part on them.

@@ -1,13 +1,13 @@
 //! Estimates with all known facts about their errors.
 
 use super::by_points::Bounds;
-use super::concentration::{Side, interval};
+use super::concentration::interval;
 use super::influence::Influences;
 use super::method::IntervalMethod;
-use super::net_decay::{PartInfluences, StandardError};
+use super::standard_error::{ErrorKind, PartInfluences, StandardError};
 use super::unseen::Unseen;
 use super::{Estimate, Interval, NORMAL_QUANTILE};
-use crate::effect::{EffectQuantities, IndexPair, Kind};
+use crate::effect::{EffectQuantities, IndexPair};
 
 /// An estimate, its interval, its error, and the influences of the parts of the runs on it.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,23 +17,6 @@ pub(crate) struct Judgement {
     pub parts: PartInfluences,
     /// Whether its error is a bound on what the rows cannot show, since they show no spread.
     pub is_bound: bool,
-}
-
-/// The behaviour of the errors of a quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct ErrorKind {
-    /// Where the true value may be outside an interval if few rows dominate the quantity.
-    pub side: Side,
-    /// Whether it helps to determine how fast all errors decrease with the number of points.
-    pub is_pooled: bool,
-}
-
-impl ErrorKind {
-    /// Returns the behaviour of quantities of this kind: indices and their sums are sums of contributions of one sign.
-    pub fn of_kind(kind: Kind) -> Self {
-        let side = if kind == Kind::Difference { Side::Both } else { Side::Above };
-        Self { side, is_pooled: kind == Kind::Index }
-    }
 }
 
 impl Judgement {

@@ -1,7 +1,7 @@
 //! The kinds of interval.
 
-use super::judgement::ErrorKind;
-use super::net_decay::{PartInfluences, StandardError, net_errors};
+use super::net_decay::net_errors;
+use super::standard_error::{ErrorKind, PartInfluences, StandardError};
 use crate::design::Sampler;
 use apportion_base::names::named;
 use serde::{Deserialize, Serialize};

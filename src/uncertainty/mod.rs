@@ -17,20 +17,21 @@ mod net_decay;
 mod points;
 mod ranks;
 mod special;
+mod standard_error;
 mod unseen;
 
 pub(crate) use by_points::ByPoints;
-pub(crate) use concentration::Side;
 pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OutputMoments};
 pub(crate) use effects::{agreeing, differs_clearly};
 pub use influence::{Influences, LeftOut};
 pub use jackknife::jackknife;
-pub(crate) use judgement::{ErrorKind, Judgement};
+pub(crate) use judgement::Judgement;
 pub use method::IntervalMethod;
-pub use net_decay::{PartInfluences, StandardError};
 pub use points::KeptPoints;
 pub(crate) use ranks::probability_first;
 use serde::{Deserialize, Serialize};
+pub(crate) use standard_error::{ErrorKind, Side};
+pub use standard_error::{PartInfluences, StandardError};
 pub(crate) use unseen::{half_seen, unseen};
 
 use apportion_base::special::t_quantile_outside;

@@ -18,8 +18,8 @@
 //! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
 //! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
 
-use super::judgement::ErrorKind;
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
+use super::standard_error::{ErrorKind, PartInfluences, StandardError};
 
 /// Maximum number of levels of nested parts to which the trend is fitted.
 const LEVELS: usize = 6;
@@ -42,19 +42,6 @@ const DAMPING: f64 = 4.0;
 
 /// Number of indices of one output that count as one independent one, because they come from the same points.
 const DEPENDENCE: f64 = 2.0;
-
-/// A standard error with its degrees of freedom of Student's t.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StandardError {
-    /// The standard error, in the unit of the estimate.
-    pub error: f64,
-    /// Degrees of freedom.
-    pub freedom: f64,
-}
-
-/// Mean influences of the parts of every net on one quantity: `[net][part]`, all nets with the same parts, which have
-/// equal numbers of points except the last. Their mean over everything is 0.
-pub type PartInfluences = Vec<Vec<f64>>;
 
 /// Computes standard errors of quantities estimated from all nets together. The pooled quantities (the indices)
 /// determine the common rate and factor; the others only use them.

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 
 use super::judgement::Judgement;
-use super::net_decay::{PartInfluences, StandardError};
+use super::standard_error::{PartInfluences, StandardError};
 use super::{Estimate, NORMAL_QUANTILE, t_quantile};
 use apportion_base::special::t_above;
 

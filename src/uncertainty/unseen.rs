@@ -7,7 +7,7 @@
 //! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
 //! unchanged in every row keeps an error of 0.
 
-use super::net_decay::PartInfluences;
+use super::standard_error::PartInfluences;
 use crate::effect::{EffectQuantities, IndexPair, Layout, NoisePairing, Quantities};
 use crate::estimate::{Moments, SwapMoments};
 

@@ -1,3 +1,4 @@
+use super::super::kind::gap;
 use super::*;
 
 fn estimate(estimate: f64, half_width: f64) -> Estimate {

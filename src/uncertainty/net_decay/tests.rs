@@ -2,7 +2,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
-use crate::uncertainty::concentration::Side;
+use crate::uncertainty::Side;
 use crate::uncertainty::t_interval;
 
 const POOLED: ErrorKind = ErrorKind { side: Side::Both, is_pooled: true };
