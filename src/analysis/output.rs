@@ -7,13 +7,13 @@ use super::finished_run::{FinishedRun, named_inputs, outputs_kept, row_inputs};
 use super::first_rows::FirstRows;
 use super::indices::{add_indices, stage_record};
 use super::measures::MeasuredRows;
-use super::output_indices::{IntervalOptions, output_indices, output_moments};
+use super::output_indices::{IntervalOptions, OutputIndices, output_indices, output_moments};
 use super::rare_levels::withdraw;
 use super::scatter::scatter_record;
 use super::stages::stages;
 use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
-use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
+use crate::estimate::{CentralMoments, MomentParts, Moments, Undefined, merged};
 use crate::model::{Output, RowFailure};
 use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
 use crate::run::{Tally, Totals};
@@ -75,20 +75,7 @@ pub(super) fn output_result(
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
     let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
-    let mut warnings = warnings::of_runs(run, totals.runs_failed, &used);
-    warnings.extend(warnings::of_flags(run.model, whole));
-    warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
-    if let Ok(indices) = &mut indices {
-        withdraw(indices, &corrected.rare, &study.effects());
-        warnings.extend(warnings::of_digits(&totals.values));
-        warnings.extend(warnings::of_values(&totals.values));
-        warnings.extend(warnings::of_indices(study, indices));
-        warnings::without_consequences(&mut warnings);
-    }
-    // All rows of a table are checked when it is read.
-    if !study.subject.is_external() {
-        warnings.extend(unlikely::of_samples(run.design, output, &samples));
-    }
+    let warnings = output_warnings(run, number, whole, &used, indices.as_mut().ok(), corrected, &samples);
     let mut convergence = Vec::new();
     if let (Ok(indices), true) = (&indices, study.analysis.convergence) {
         let stages = stages(&parts, &layout, &options, indices, &|points| {
@@ -126,6 +113,34 @@ pub(super) fn output_result(
         }
     }
     result
+}
+
+/// Returns the warnings on output number `number`, and withdraws what its `indices` do not hold.
+fn output_warnings(
+    run: &FinishedRun<'_>,
+    number: usize,
+    whole: &Totals,
+    used: &Moments,
+    indices: Option<&mut OutputIndices>,
+    corrected: &Corrections,
+    samples: &[Vec<f64>],
+) -> Vec<Warning> {
+    let (study, totals) = (run.study, &whole.outputs[number]);
+    let mut warnings = warnings::of_runs(run, totals.runs_failed, used);
+    warnings.extend(warnings::of_flags(run.model, whole));
+    warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
+    if let Some(indices) = indices {
+        withdraw(indices, &corrected.rare, &study.effects());
+        warnings.extend(warnings::of_digits(&totals.values));
+        warnings.extend(warnings::of_values(&totals.values));
+        warnings.extend(warnings::of_indices(study, indices));
+        warnings::without_consequences(&mut warnings);
+    }
+    // All rows of a table are checked when it is read.
+    if !study.subject.is_external() {
+        warnings.extend(unlikely::of_samples(run.design, &run.model.outputs()[number], samples));
+    }
+    warnings
 }
 
 /// Returns the relation of the `samples` of an output to its most influential factors; `None` without indices of
