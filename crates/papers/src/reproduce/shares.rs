@@ -1,7 +1,8 @@
 //! Our shares with the published ones: as one table, for the page, for a terminal and as CSV; and as charts.
 
+use apportion::EffectEstimates;
 use apportion::Estimate;
-use apportion::result::IndexRecord;
+use apportion::result::Named;
 use apportion_base::text::listed;
 use apportion_report::chart::{Chart, Series};
 use apportion_report::document::Table;
@@ -13,12 +14,12 @@ use super::studies::Reproduced;
 use super::words::percent;
 
 /// Returns the indices of a study's factors.
-pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
+pub(super) fn indices(study: &Reproduced) -> &[Named<EffectEstimates>] {
     study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default()
 }
 
 /// Returns the indices of a study's factors with their positions in [`indices`], the largest total share first.
-pub(super) fn ranked(study: &Reproduced) -> Vec<(usize, &IndexRecord)> {
+pub(super) fn ranked(study: &Reproduced) -> Vec<(usize, &Named<EffectEstimates>)> {
     let shares = indices(study).iter().enumerate().filter_map(|place| Some((place.1.effect.share_total?, place)));
     let mut shares: Vec<_> = shares.filter(|(share, _)| !share.is_nan()).collect();
     shares.sort_by(|(a, _), (b, _)| b.total_cmp(a));
@@ -88,7 +89,7 @@ fn caption(group: &str, members: &[&Reproduced]) -> String {
     let (mut leaders, mut printed) = (Vec::new(), String::new());
     for member in members {
         let name = member.friction.name;
-        if let Some((_, IndexRecord { factor, effect })) = ranked(member).first() {
+        if let Some((_, Named { name: factor, effect, .. })) = ranked(member).first() {
             leaders.push(format!("{} under {name} friction ({})", words(factor), percent(effect.total.estimate)));
         }
         let shares = published(group, member.friction.key).shares.iter();

@@ -1,6 +1,7 @@
 //! Overview of many outputs: a map of factors and outputs, the bars of all outputs together, and a series along its axis.
 
-use apportion::result::{OutputResult, PlainIndexRecord, SeriesRecord};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, SeriesRecord};
 use apportion::uncertainty::Estimate;
 
 use crate::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
@@ -97,7 +98,7 @@ pub(super) fn short(index: f64) -> String {
 /// factors, the first 20.
 pub(crate) fn together_chart(view: &OutputView<'_>) -> Chart {
     let names = &view.factors;
-    let indices: Vec<Option<&PlainIndexRecord>> =
+    let indices: Vec<Option<&Named<IndexPair<Estimate>>>> =
         names.iter().map(|name| view.together_indices().iter().find(|index| index.factor == *name)).collect();
     let first_order = indices.iter().map(|index| index.map(|index| index.first_order)).collect();
     let total: Vec<Option<Estimate>> = indices.iter().map(|index| index.map(|index| index.total)).collect();

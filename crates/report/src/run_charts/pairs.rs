@@ -1,6 +1,7 @@
 //! The indices: first order with total, second order as a map of pairs, and their convergence during the run.
 
-use apportion::result::{OutputResult, PlainIndexRecord, StageRecord, StudyResult};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, StageRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
 
 use super::map::{class, series, short};
@@ -123,7 +124,7 @@ fn line_series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
 }
 
 /// Iterates over the number of runs and the index of `factor` at every stage.
-fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> + Clone {
+fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &Named<IndexPair<Estimate>>)> + Clone {
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
 

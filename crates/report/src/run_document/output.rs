@@ -1,6 +1,7 @@
 //! The topics of the document on one output.
 
-use apportion::result::{OtherIndexRecord, OutputResult, StudyResult, SurrogateTrial};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, StudyResult, SurrogateTrial};
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_base::text::listed;
 
@@ -300,7 +301,7 @@ fn range(output: &OutputResult) -> String {
 }
 
 /// Tabulates the first-order indices of the values next to the indices of the mean over the noise.
-fn noise_table(output: &OutputResult, of_mean: &[OtherIndexRecord]) -> Table {
+fn noise_table(output: &OutputResult, of_mean: &[Named<IndexPair<Option<Estimate>>>]) -> Table {
     let order = by_total(output).unwrap_or_default().into_iter();
     let rows = order.map(|(_, index)| (index, of_mean.iter().find(|of_mean| of_mean.name == index.factor)));
     Table::from_rows("Indices of the values and of the mean over the noise, each of its own variance.", rows)

@@ -1,6 +1,7 @@
 //! The document on many outputs: an overview, and a table of every output.
 
-use apportion::result::PlainIndexRecord;
+use apportion::effect::IndexPair;
+use apportion::result::Named;
 use apportion::uncertainty::Estimate;
 
 use super::parts::{definitions, failed_runs, figure, grouped_warnings};
@@ -46,7 +47,7 @@ fn overview(view: &OutputView<'_>) -> Vec<Part> {
 #[derive(Clone, Copy)]
 struct FactorRow<'a> {
     factor: &'a str,
-    together: Option<&'a PlainIndexRecord>,
+    together: Option<&'a Named<IndexPair<Estimate>>>,
     leads: usize,
     median: Option<Estimate>,
     largest: Option<(Estimate, &'a str)>,

@@ -2,11 +2,9 @@
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::correction::NamedTerm;
+use apportion::effect::IndexPair;
 use apportion::given::Measure;
-use apportion::result::{
-    EstimatorRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, RunMeasures, StudyResult,
-    SurrogateRecord,
-};
+use apportion::result::{EstimatorRecord, Named, OutputResult, PairRecord, RunMeasures, StudyResult, SurrogateRecord};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, DataFile, Part, Rows, Table, csv};
@@ -42,9 +40,9 @@ impl<'a> Line<'a> {
     }
 
     /// Creates a line of indices over several outputs together.
-    fn plain(label: String, index: &PlainIndexRecord) -> Self {
-        let PlainIndexRecord { ref factor, first_order, total } = *index;
-        Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None }
+    fn plain(label: String, index: &Named<IndexPair<Estimate>>) -> Self {
+        let IndexPair { first_order, total } = index.effect;
+        Self { kind: "aggregate", label, name: index.name.clone(), first_order, total, effect: None }
     }
 
     fn get<T>(&self, of: fn(&EffectEstimates) -> Option<T>) -> Option<T> {
@@ -189,9 +187,8 @@ pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Tabl
 /// Tabulates joint indices of subsets of factors, and those of the dummy factor.
 pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let subsets = output.subsets.iter().flatten();
-    let mut lines: Vec<Line<'_>> = subsets
-        .map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect))
-        .collect();
+    let mut lines: Vec<Line<'_>> =
+        subsets.map(|subset| Line::new("subset", joined(&subset.factors), &subset.name, &subset.effect)).collect();
     let dummy = output.dummy.iter();
     lines.extend(dummy.map(|effect| Line::new("dummy", "dummy, without effect".to_owned(), "dummy", effect)));
     let caption = match output.dummy {
@@ -250,7 +247,7 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
 /// Which index a table of estimators shows: of another estimator, and of the default ones.
 #[derive(Clone, Copy)]
 struct EstimatorColumn {
-    other: fn(&OtherIndexRecord) -> Option<Estimate>,
+    other: fn(&Named<IndexPair<Option<Estimate>>>) -> Option<Estimate>,
     default: IndexOf,
 }
 
@@ -274,8 +271,8 @@ fn estimator_table(output: &OutputResult, caption: &str, column: EstimatorColumn
 pub(super) fn together(
     result: &StudyResult,
     outputs: &[&str],
-    indices: &[PlainIndexRecord],
-    noise: Option<&PlainIndexRecord>,
+    indices: &[Named<IndexPair<Estimate>>],
+    noise: Option<&Named<IndexPair<Estimate>>>,
 ) -> Table {
     let mut lines: Vec<Line<'_>> = indices.iter().map(|index| Line::plain(name(&index.factor), index)).collect();
     lines.extend(noise.map(|noise| Line::plain(of_noise(&noise.factor), noise)));
