@@ -3,7 +3,7 @@
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::effect::IndexPair;
 use apportion::result::{Named, OutputResult, PairRecord};
-use apportion::uncertainty::{Estimate, Interval, LEVEL};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval, LEVEL};
 use apportion_base::special::normal_quantile;
 use apportion_base::text::listed;
 
@@ -36,7 +36,7 @@ impl Contender {
     /// Creates the contender of a factor with its index.
     pub fn from_index(index: &Named<EffectEstimates>) -> Self {
         let probability = index.effect.probability_first;
-        Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
+        Self { probability, ..Self::new(name(&index.name), index.effect.weight()) }
     }
 
     /// Formats its quantity with the unit.
@@ -158,7 +158,7 @@ pub(super) fn leader_of(output: &OutputResult) -> String {
 /// Says the same for several outputs together.
 pub(super) fn leader_of_all(indices: &[Named<IndexPair<Estimate>>], of: &str) -> Option<String> {
     let contenders: Vec<Contender> =
-        indices.iter().map(|index| Contender::new(name(&index.factor), index.total)).collect();
+        indices.iter().map(|index| Contender::new(name(&index.name), index.effect.total)).collect();
     leader(&contenders, of, "total index S_T", "")
 }
 

@@ -137,7 +137,7 @@ pub(crate) type IndexOf = fn(&EffectEstimates) -> Estimate;
 
 /// Iterates over the names and indices of the factors of an output, or of its groups in their place.
 pub(crate) fn effects(output: &OutputResult) -> impl Iterator<Item = (&str, &EffectEstimates)> + Clone {
-    output.indices.iter().flatten().map(|index| (index.factor.as_str(), &index.effect))
+    output.indices.iter().flatten().map(|index| (index.name.as_str(), &index.effect))
 }
 
 /// Returns the indices of the factor at this position in the study.

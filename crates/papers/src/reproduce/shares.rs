@@ -37,7 +37,7 @@ pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
         // Only the first row of a study names it.
         let first = ranked.first().map(|(place, _)| *place);
         for (place, index) in indices(study).iter().enumerate() {
-            rows.push((*study, index, first == Some(place), print.share(&index.factor)));
+            rows.push((*study, index, first == Some(place), print.share(&index.name)));
         }
     }
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
@@ -47,8 +47,8 @@ pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
         .value("study", |(study, ..)| study.group.key)
         .text("friction", |(study, _, is_first, _)| if is_first { study.friction.name } else { "" })
         .value("friction", |(study, ..)| study.friction.key)
-        .text("factor", |(_, index, ..)| words(&index.factor))
-        .value("factor", |(_, index, ..)| &index.factor)
+        .text("factor", |(_, index, ..)| words(&index.name))
+        .value("factor", |(_, index, ..)| &index.name)
         .number("S_1", |(_, index, ..)| index.effect.first_order)
         .number("S_T", |(_, index, ..)| index.effect.total)
         .number("% of S_1", |(_, index, ..)| one_decimal(index.effect.first_order_percent()))

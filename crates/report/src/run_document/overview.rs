@@ -62,7 +62,7 @@ impl<'a> FactorRow<'a> {
         totals.sort_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate));
         Self {
             factor,
-            together: view.together_indices().iter().find(|index| index.factor == factor),
+            together: view.together_indices().iter().find(|index| index.name == factor),
             leads,
             median: totals.get(totals.len() / 2).map(|(total, _)| *total),
             largest: totals.last().copied(),
@@ -76,8 +76,8 @@ pub(super) fn factors(view: &OutputView<'_>, caption: &str) -> Table {
     let order = overall_order(view).into_iter();
     Table::from_rows(caption, order.map(|factor| FactorRow::new(view, factor, leads[factor])))
         .text("factor", |row| name(row.factor))
-        .number("S_1 together", |row| row.together.map(|together| together.first_order))
-        .number("S_T together", |row| row.together.map(|together| together.total))
+        .number("S_1 together", |row| row.together.map(|together| together.effect.first_order))
+        .number("S_T together", |row| row.together.map(|together| together.effect.total))
         .number("first of", |row| row.leads.to_string())
         .number("median S_T", |row| or_dash(row.median, |median| short(median.estimate)))
         .number("largest S_T", |row| row.largest.map(|(total, _)| total))

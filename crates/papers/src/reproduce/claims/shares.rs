@@ -107,7 +107,7 @@ fn verdict_of_order(order: &OrderVerdict<'_>) -> String {
 fn shares_in_words(indices: &[Named<EffectEstimates>], order: &OrderVerdict<'_>) -> String {
     let mut visible = Vec::new();
     for name in &order.ours {
-        for Named { name: factor, effect, .. } in indices.iter().filter(|index| index.factor == *name) {
+        for Named { name: factor, effect, .. } in indices.iter().filter(|index| index.name == *name) {
             let first = effect.share_first_order.map_or_else(|| "-".to_owned(), |share| fixed(share, 1));
             visible.push(format!("{} {} % ({first} %)", factor.replace('_', " "), share(effect.total_percent())));
         }
@@ -129,7 +129,7 @@ pub(super) fn printed_percentages(
     let (_, indices) = printed(context, group)?;
     let (mut by_first_order, mut by_total, mut shares) = (true, true, Vec::new());
     for (factor, percent) in published(group, PRINTED).shares {
-        let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
+        let effect = indices.iter().find(|index| index.name == *factor).map(|index| index.effect);
         let first_order = effect.and_then(|effect| effect.share_first_order).unwrap_or(f64::NAN);
         let total = effect.and_then(|effect| effect.share_total).unwrap_or(f64::NAN);
         by_first_order &= (first_order - percent).abs() <= CLOSE;

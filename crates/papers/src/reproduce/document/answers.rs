@@ -44,7 +44,7 @@ fn leader(study: &Reproduced) -> Cell {
     let Some(Named { name: factor, effect, .. }) = ranked.next() else { return "no indices".into() };
     let others = ranked.filter(|index| index.effect.share_total.is_some_and(|share| share >= VISIBLE));
     let others: Vec<String> =
-        others.map(|index| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate))).collect();
+        others.map(|index| format!("{} ({})", words(&index.name), percent(index.effect.total.estimate))).collect();
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
     let (alone, together) = explained(effect);
     let certainty = match effect.probability_first {
