@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use crate::correction::IndependentOutputs;
 use crate::correction::SurrogateEstimates;
 use crate::design::Design;
 use crate::estimate::PointOutputs;
@@ -9,7 +10,6 @@ use crate::model::Model;
 use crate::run::{RowPosition, Totals};
 use crate::space::Space;
 use crate::study::Study;
-use crate::surrogate::low_fidelity::IndependentOutputs;
 
 /// A finished run of a study.
 #[derive(Clone, Copy)]

@@ -83,7 +83,7 @@ impl OutputIndices {
         largest_half_width(effects.flat_map(|indices| indices.estimates.indices()))
     }
 
-    /// Returns the largest half width of the plain indices beside a surrogate; `None` if one is unknown.
+    /// Returns the largest half width of the plain indices where a surrogate corrects them; `None` if one is unknown.
     pub fn plain_half_width(&self) -> Option<f64> {
         let plain = self.effects.iter().filter_map(|indices| indices.plain);
         largest_half_width(plain.flat_map(|plain| [plain.first_order, plain.total]))
@@ -201,7 +201,7 @@ fn judged(
             Judgement::with_bounds(influences, bounds)
         }
         None => {
-            let mut kinds = values.clone().map(|kind, _| ErrorKind::of(kind)).into_list();
+            let mut kinds = values.clone().map(|kind, _| ErrorKind::of_kind(kind)).into_list();
             // Rounding says nothing about the decay of errors.
             for (kind, (unseen, parts)) in kinds.iter_mut().zip(unseen.iter().zip(&influences.parts)) {
                 kind.is_pooled &= !unseen.applies(parts);

@@ -7,13 +7,14 @@ use super::output_indices::{IntervalOptions, output_indices};
 use super::rare_levels::rare_levels;
 use super::stages::points_of_stages;
 use crate::correction::SurrogateEstimates;
+use crate::correction::surrogates_together;
+use crate::correction::{LowFidelityOutputs, low_fidelity_estimates};
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs};
 use crate::result::{RareLevel, SurrogateTrial};
 use crate::run::Totals;
 use crate::study::{Study, SurrogateChoice};
-use crate::surrogate::low_fidelity::{LowFidelityOutputs, low_fidelity_estimates};
-use crate::surrogate::{families, surrogates_together};
+use crate::surrogate::families;
 
 /// Number of rows on which surrogates of a fast model are tried.
 const TRIAL_ROWS: u64 = 1 << 13;

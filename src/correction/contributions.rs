@@ -13,9 +13,10 @@
 //! number is a mean over base points, so that the contributions of the points give the error.
 
 use crate::design::Design;
-use crate::effect::Layout;
-use crate::surrogate::fit::Expansion;
+use crate::surrogate::fit::values_and_rest;
+use crate::surrogate::gram::add_scaled;
 use crate::surrogate::net::Net;
+use crate::surrogate::{Effects, Expansion, is_interaction, touches, within};
 
 /// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {
@@ -46,38 +47,6 @@ pub struct Claim {
     pub shown: f64,
 }
 
-/// The effects whose numbers are corrected.
-pub struct Effects {
-    /// The factors of every swap, in rising order.
-    pub swaps: Vec<Vec<usize>>,
-    /// The pairs of swaps with second-order indices, in the order of the layout.
-    pub pairs: Vec<(usize, usize)>,
-}
-
-impl Effects {
-    /// Returns those of the swaps of `design` in `layout`.
-    pub fn new(design: &Design, layout: &Layout) -> Self {
-        let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
-        swaps.iter_mut().for_each(|swap| swap.sort_unstable());
-        Self { swaps, pairs: if layout.second_order { layout.pair_list() } else { Vec::new() } }
-    }
-}
-
-/// Returns whether all factors of a term are in a swap.
-pub(crate) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
-    !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
-}
-
-pub(crate) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
-    term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
-}
-
-/// Returns whether a term has factors of two swaps, and none of others.
-pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
-    let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
-    touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
-}
-
 /// Returns the mean of a power over all columns.
 pub(crate) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
@@ -92,28 +61,6 @@ pub(crate) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize
     (of_jk + of_kj) / 2.0
 }
 
-/// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
-pub(crate) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
-    let mut values = Vec::new();
-    let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
-    for (run, sums) in surrogate.iter_mut().enumerate() {
-        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
-            net.fill(term, run, &mut values);
-            add_multiple(sums, *b, &values);
-        }
-    }
-    let pairs = net.outputs.iter().zip(&surrogate);
-    let e = pairs.map(|(f, g)| f.iter().zip(g).map(|(f, g)| f - g).collect()).collect();
-    (surrogate, e)
-}
-
-/// Adds `factor` times `values` to `sums`.
-fn add_multiple(sums: &mut [f64], factor: f64, values: &[f64]) {
-    for (sum, value) in sums.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
-}
-
 /// Computes [`Contributions::claims`].
 fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<Claim> {
     let mut claims = vec![Claim::default(); swaps.len() + 1];
@@ -126,7 +73,7 @@ fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<Claim> 
             net.fill(term, run, &mut values);
             for (at, part) in parts.iter_mut().enumerate() {
                 if swaps.get(at).is_none_or(|swap| touches(term, swap)) {
-                    add_multiple(part, *b, &values);
+                    add_scaled(part, *b, &values);
                     claims[at].claimed += if run == 0 { b * b } else { 0.0 };
                 }
             }

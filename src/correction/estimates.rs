@@ -2,8 +2,9 @@
 
 use super::error::CorrectionError;
 use super::influenced::EstimateWithInfluences;
-use super::surrogate_use::{ChosenTerms, LowFidelityUse, Refusal, SurrogateTerm};
+use super::surrogate_use::{LowFidelityUse, Refusal};
 use crate::effect::IndexPair;
+use crate::surrogate::{ChosenTerms, SurrogateTerm};
 use crate::uncertainty::{Estimate, Interval, Judgement, StandardError};
 
 /// Maximum ratio of the variance of a factor claimed by surrogates to that over the rows: at most 3.2 for smooth

@@ -1,18 +1,22 @@
 //! Correction of plain indices by surrogates, with the errors of what the surrogates leave.
+//!
+//! No net is corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 mod contributions;
 mod error;
 mod estimates;
 mod influenced;
+mod low_fidelity;
+mod many_outputs;
 mod mean;
+mod nets;
 mod replace;
 mod surrogate_use;
 
-pub(crate) use contributions::{
-    Contributions, Effects, interaction, is_interaction, mean_power, touches, values_and_rest, within,
-};
 pub use error::{CorrectionError, in_parts};
 pub use estimates::{ErrorShares, SurrogateEstimates};
 pub use influenced::EstimateWithInfluences;
+pub(crate) use low_fidelity::{IndependentOutputs, LowFidelityOutputs, low_fidelity_estimates};
+pub(crate) use many_outputs::surrogates_together;
 pub(crate) use replace::{correct, hull};
-pub use surrogate_use::{ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateTerm, SurrogateUse};
+pub use surrogate_use::{LowFidelityUse, Refusal, SurrogateUse};

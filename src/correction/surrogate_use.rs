@@ -1,8 +1,8 @@
 //! What was made of surrogates: their terms, what they explain, and whether their corrections are used.
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
+
+use crate::surrogate::SurrogateTerm;
 
 /// Why corrected indices are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,55 +31,6 @@ pub struct LowFidelityUse {
     pub slope: f64,
     /// Share of the variance explained by the low-fidelity model alone, over runs not used to fit its slope.
     pub explained: f64,
-}
-
-/// The place of a step or a kink of an output in a factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Knot {
-    /// The quantile.
-    pub u: f64,
-    /// Width of the range of quantiles that contains it.
-    pub width: f64,
-    /// Whether it is a step rather than a kink.
-    pub is_step: bool,
-}
-
-/// The terms of the surrogates of every net.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChosenTerms {
-    /// Index of the kind of polynomials.
-    pub kind: usize,
-    /// The knots of every factor; empty for polynomials only.
-    pub knots: Vec<Vec<Knot>>,
-    /// For each net the terms of the surrogate of the others: the factors in each, by index, with their degrees.
-    pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
-}
-
-/// A term of a surrogate.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SurrogateTerm {
-    /// The factors in it, by index, each with its degree.
-    pub factors: Vec<(usize, usize)>,
-    /// Its share of the variance.
-    pub share: f64,
-}
-
-impl SurrogateTerm {
-    /// Returns the term with these names of factors or inputs.
-    pub fn named(&self, names: &[&str]) -> NamedTerm {
-        let degrees = self.factors.iter().map(|&(number, degree)| (names[number].to_owned(), degree));
-        NamedTerm { degrees: degrees.collect(), share: 100.0 * self.share }
-    }
-}
-
-/// A term of the surrogates.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct NamedTerm {
-    /// The degree of its polynomial of each factor in it.
-    pub degrees: BTreeMap<String, usize>,
-    /// Its share of the variance, in percent.
-    pub share: f64,
 }
 
 /// The use of a surrogate.

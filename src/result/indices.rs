@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::correction::{LowFidelityUse, NamedTerm};
+use crate::correction::LowFidelityUse;
 use crate::effect::IndexPair;
+use crate::surrogate::NamedTerm;
 use crate::uncertainty::{EffectEstimates, Estimate};
 
 /// The indices of a factor, a group or a subset, under its name.

@@ -7,13 +7,13 @@ use super::Runner;
 use super::journal::{self, RunJournal};
 use crate::analysis::{LowFidelityTotals, outputs_kept};
 use crate::correction::ErrorShares;
+use crate::correction::IndependentOutputs;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Messages, Model, RunContext};
 use crate::run::journal::with_ending;
 use crate::run::{GrowingRun, Job, RunError};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
-use crate::surrogate::low_fidelity::IndependentOutputs;
 use apportion_base::clock::Instant;
 
 /// XORed with the study's seed, so that the low-fidelity model's independent design differs from any user's.

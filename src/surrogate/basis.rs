@@ -1,12 +1,8 @@
-//! Orthonormal polynomials of the factors: the terms of a surrogate.
+//! The terms of a surrogate, products of functions of factors, and which of them are candidates.
 
 use std::collections::HashSet;
 
-use super::knots::Knotted;
-use super::orthogonal::{OrthogonalPolynomials, Recurrence};
-use crate::space::Distribution;
-use apportion_base::special::normal_quantile;
-use apportion_base::sum::range;
+use super::family::{Family, MAX_DEGREES};
 
 /// Maximum number of factors in a term of the first candidates.
 const MAX_FACTORS: usize = 3;
@@ -22,66 +18,6 @@ const LEADING: usize = 8;
 
 /// Share of the variance below which a factor is not tried as a partner.
 const LEADING_SHARE: f64 = 1e-7;
-
-/// The polynomials of one factor.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Family {
-    /// Legendre polynomials of the quantile, scaled to the unit interval: for every distribution.
-    Legendre,
-    /// Hermite polynomials of the normal quantile: for normal and log-normal factors.
-    Hermite,
-    /// Polynomials orthonormal under the distribution of the factor, in its values.
-    Orthogonal(Box<OrthogonalPolynomials>),
-    /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
-    Column(Box<Recurrence>),
-    /// Polynomials of another family together with steps and kinks, all of which count as degrees.
-    Knotted(Box<Knotted>),
-}
-
-impl Family {
-    /// Returns the family of a factor with this distribution.
-    pub fn new(distribution: &Distribution) -> Self {
-        match distribution {
-            // No output is smooth in a seed: no polynomials at all.
-            Distribution::Seed(_) => Self::Column(Box::default()),
-            // Smooth in the logarithm, which is uniform.
-            Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
-            Distribution::Normal(_)
-            | Distribution::LogNormal(_)
-            | Distribution::Weibull(_)
-            | Distribution::Gumbel(_) => Self::Hermite,
-            // Unbounded distributions use polynomials of their quantiles.
-            _ => OrthogonalPolynomials::new(distribution, MAX_DEGREES)
-                .map_or(Self::Legendre, |polynomials| Self::Orthogonal(Box::new(polynomials))),
-        }
-    }
-
-    /// Returns the family of a column of `values`, between -2 and 2, with no degree if they are all equal.
-    pub fn of_column(values: &[f64]) -> Self {
-        let weight = 1.0 / values.len() as f64;
-        let nodes: Vec<(f64, f64)> = values.iter().map(|x| (*x, weight)).collect();
-        let recurrence = Recurrence::new(&nodes, range(values), MAX_DEGREES);
-        Self::Column(Box::new(recurrence.unwrap_or_default()))
-    }
-
-    /// Returns its polynomials without steps and kinks.
-    pub fn smooth(&self) -> &Self {
-        if let Self::Knotted(knotted) = self { &knotted.base } else { self }
-    }
-
-    /// Returns the largest available degree.
-    fn degree(&self) -> usize {
-        match self {
-            Self::Legendre | Self::Hermite => MAX_DEGREES,
-            Self::Orthogonal(polynomials) => polynomials.degree(),
-            Self::Column(recurrence) => recurrence.degree(),
-            Self::Knotted(knotted) => knotted.degree(),
-        }
-    }
-}
-
-/// Maximum degree of any polynomial.
-const MAX_DEGREES: usize = 14;
 
 /// A product of polynomials of different factors: (factor, degree) by rising factor, degrees from 1; the empty one is the
 /// constant.
@@ -266,7 +202,7 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
 }
 
 /// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
-pub(super) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
+pub(crate) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
     match list.iter_mut().find(|(other, _)| *other == key) {
         Some((_, sum)) => *sum += more,
         None => list.push((key, more)),
@@ -279,7 +215,7 @@ fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
 }
 
 /// Returns the degree of a term with no other factor than this one.
-pub(super) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
+pub(crate) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
     match term[..] {
         [(other, degree)] if other == factor => Some(degree),
         _ => None,
@@ -299,41 +235,6 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
     variances.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     variances.truncate(LEADING);
     variances.into_iter().map(|(factor, _)| factor).collect()
-}
-
-/// Returns the orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the
-/// quantiles of the factor, or at the values of a [`Family::Column`].
-pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
-    match family {
-        Family::Orthogonal(polynomials) => polynomials.columns(u),
-        Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
-        Family::Column(recurrence) => recurrence.columns(u, degree),
-        Family::Legendre => {
-            let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
-            let mut columns = recurred(&x, degree, |n, x, p, q| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0));
-            for (k, column) in columns.iter_mut().enumerate() {
-                let norm = (2.0 * (k + 1) as f64 + 1.0).sqrt();
-                column.iter_mut().for_each(|p| *p *= norm);
-            }
-            columns
-        }
-        Family::Hermite => {
-            let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
-            recurred(&x, degree, |n, x, p, q| (x * p - n.sqrt() * q) / (n + 1.0).sqrt())
-        }
-    }
-}
-
-/// Returns the polynomials p_1, p_2, ... at `x`, of which p_(n+1) is `next`(n, x, p_n, p_(n-1)); p_0 = 1, p_(-1) = 0.
-pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
-    let (mut before, mut now) = (vec![0.0; x.len()], vec![1.0; x.len()]);
-    let mut columns = Vec::with_capacity(degree);
-    for n in 0..degree {
-        let following = now.iter().zip(&before).zip(x).map(|((p, q), x)| next(n as f64, *x, *p, *q)).collect();
-        before = std::mem::replace(&mut now, following);
-        columns.push(now.clone());
-    }
-    columns
 }
 
 #[cfg(test)]

@@ -11,9 +11,10 @@
 
 use std::collections::BTreeMap;
 
-use super::basis::{Family, Term, polynomials};
+use super::basis::Term;
+use super::family::{Family, polynomials};
 use super::fit::Expansion;
-use crate::correction::{Effects, is_interaction, touches, within};
+use super::terms::{Effects, is_interaction, touches, within};
 
 /// Width of the panels of the midpoint rule in ln u, and their number, down to 1e-17 of the edge.
 const STEP: f64 = 0.25;

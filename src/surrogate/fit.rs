@@ -139,7 +139,7 @@ fn first_smallest(numbers: impl Iterator<Item = f64>) -> usize {
 }
 
 /// Returns the members of `list` except number `left_out`.
-pub(super) fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
+pub(crate) fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
     list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
 }
 
@@ -242,4 +242,19 @@ fn joined(nets: &[&NetSums]) -> (Square, Vec<Vec<f64>>) {
         }
     }
     (gram, right)
+}
+
+/// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
+pub(crate) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let mut values = Vec::new();
+    let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
+    for (run, sums) in surrogate.iter_mut().enumerate() {
+        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
+            net.fill(term, run, &mut values);
+            add_scaled(sums, *b, &values);
+        }
+    }
+    let pairs = net.outputs.iter().zip(&surrogate);
+    let e = pairs.map(|(f, g)| f.iter().zip(g).map(|(f, g)| f - g).collect()).collect();
+    (surrogate, e)
 }

@@ -7,7 +7,8 @@
 //! rows of every net is close to 1, and a factor with a thin tail has polynomials only if that of degree 1 has this
 //! over all nets together.
 
-use super::basis::{Caps, Family, Term};
+use super::basis::{Caps, Term};
+use super::family::Family;
 use super::net::{Net, Spread};
 
 /// Allowed range of the mean square of a term over the rows of a net. If half as many rows as expected have a level,
@@ -22,7 +23,7 @@ const ROWS: usize = 2000;
 pub struct IdentifiableTerms<'a> {
     nets: &'a [Net],
     /// The other limits on the terms.
-    pub(super) caps: Caps<'a>,
+    pub(crate) caps: Caps<'a>,
     /// For each factor, the highest degree up to which the rows of every net can determine all polynomials.
     degrees: Vec<usize>,
     /// For each net, the rows by which products are judged.

@@ -7,12 +7,10 @@
 
 use std::ops::Range;
 
-use super::basis::{Family, polynomials};
-use super::gram::{Square, add_scaled, inverse, lower_factor};
+use super::family::{Family, Knot, Knotted, polynomials};
+use super::gram::add_scaled;
 use super::net::Net;
-use super::orthogonal::rule;
 use super::outputs::OutputTable;
-use crate::correction::Knot;
 
 /// Maximum number of knots of a factor.
 const MAX_KNOTS: usize = 4;
@@ -37,94 +35,10 @@ pub const MAX_MOVED: f64 = 1.5;
 /// Share of its square that a column must keep in addition to others.
 const INDEPENDENT: f64 = 1e-6;
 
-/// Panels of the quadrature, each half as wide as the one before it, towards either end.
-const PANELS: i32 = 50;
-
-/// The polynomials of a factor, and steps and hinges at its knots: orthonormalised under the distribution in the order
-/// x, those of the knots, x^2, ..., by quadrature.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Knotted {
-    /// The polynomials without steps and hinges.
-    pub base: Family,
-    pub knots: Vec<Knot>,
-    /// For every knot, its polynomial of degree 1.
-    edges: Vec<f64>,
-    /// Row k has the coefficients of function k in 1, x, those of the knots, x^2, ..., as many as it needs.
-    rows: Vec<Vec<f64>>,
-}
-
 impl Knotted {
-    /// Creates at most `degree` functions of a factor with these `knots` and the polynomials `base`.
-    pub fn new(base: &Family, knots: &[Knot], degree: usize) -> Self {
-        let all = Self { base: base.clone(), knots: knots.to_vec(), edges: Vec::new(), rows: Vec::new() }.moved(0.0);
-        let halves = (1..=PANELS).map(|k| 0.5f64.powi(k));
-        let mut ends: Vec<f64> = halves.flat_map(|h| [h, 1.0 - h]).chain(knots.iter().map(|knot| knot.u)).collect();
-        ends.sort_by(f64::total_cmp);
-        let (u, weights): (Vec<f64>, Vec<f64>) = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1])).unzip();
-        let mut columns = all.raw(polynomials(base, &u, degree), degree);
-        for column in &mut columns {
-            for (value, weight) in column.iter_mut().zip(&weights) {
-                *value *= weight.sqrt();
-            }
-        }
-        let mut gram = Square::zeros(columns.len());
-        gram.add_products(&columns);
-        Self { rows: inverse(&lower_factor(&gram)), ..all }
-    }
-
-    /// Returns the largest index of a function.
-    pub fn degree(&self) -> usize {
-        self.rows.len() - 1
-    }
-
-    /// Returns the same functions with the steps and hinges at knots moved by `by` of their widths: the expansion on
-    /// either side of a knot.
-    pub fn moved(mut self, by: f64) -> Self {
-        let places: Vec<f64> = self.knots.iter().map(|knot| knot.u + by * knot.width).collect();
-        self.edges = polynomials(&self.base, &places, 1).swap_remove(0);
-        self
-    }
-
-    /// Returns 1, x, those of the knots, x^2, ... except the last ones, given the polynomials of degree 1, 2, ... . For
-    /// a step its hinge comes second, for a kink its step.
-    fn raw(&self, mut polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
-        polynomials.truncate(degree.saturating_sub(2 * self.knots.len()).max(1));
-        let higher = polynomials.split_off(1);
-        let x = polynomials.swap_remove(0);
-        let mut columns = vec![vec![1.0; x.len()], x];
-        for (edge, knot) in self.edges.iter().zip(&self.knots) {
-            let x = &columns[1];
-            let step: Vec<f64> = x.iter().map(|x| if x < edge { 0.0 } else { 1.0 }).collect();
-            let hinge: Vec<f64> = x.iter().map(|x| if x < edge { 0.0 } else { x - edge }).collect();
-            columns.extend(if knot.is_step { [step, hinge] } else { [hinge, step] });
-        }
-        columns.extend(higher);
-        columns
-    }
-
-    /// Returns the functions 1, 2, ..., given at least as many polynomials.
-    pub fn columns(&self, polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
-        let raw = self.raw(polynomials, self.degree());
-        let mut columns = Vec::new();
-        for row in self.rows[1..].iter().take(degree) {
-            let mut column = vec![0.0; raw[0].len()];
-            for (weight, raw) in row.iter().zip(&raw) {
-                add_scaled(&mut column, *weight, raw);
-            }
-            columns.push(column);
-        }
-        columns
-    }
-
-    /// Returns the coefficient of one of the functions 1, x, those of the knots, x^2, ... in an expansion with
-    /// `coefficients` (index, coefficient).
-    fn raw_coefficient(&self, coefficients: &[(usize, f64)], raw: usize) -> f64 {
-        coefficients.iter().map(|(k, b)| b * self.rows[*k].get(raw).unwrap_or(&0.0)).sum()
-    }
-
     /// Places the knots of `factor` by the output of `nets`, given the values of expansions with `moved` knots and the
     /// `coefficients` (index, coefficient) of the functions of the factor.
-    pub(super) fn placed(
+    pub(crate) fn placed(
         &self,
         nets: &[Net],
         moved: &MovedValues,
@@ -153,7 +67,7 @@ impl Knotted {
 }
 
 /// Values of expansions of all nets with all knots moved to the left and to the right as far as allowed.
-pub(super) struct MovedValues {
+pub(crate) struct MovedValues {
     pub left: Vec<OutputTable>,
     pub right: Vec<OutputTable>,
 }
@@ -189,7 +103,7 @@ fn placed_step(knot: Knot, nets: &[Net], moved: &MovedValues, factor: usize) -> 
 
 /// Returns the knots of `factor` that the residuals `rest` of expansions show; none for seeds and factors with few
 /// levels.
-pub(super) fn knots(nets: &[Net], rest: &[OutputTable], factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
+pub(crate) fn knots(nets: &[Net], rest: &[OutputTable], factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
     let points: usize = nets.iter().map(Net::points).sum();
     let bins = (points / POINTS_OF_BIN).next_power_of_two().clamp(MIN_BINS, MAX_BINS);
     let centres: Vec<f64> = (0..bins).map(|bin| (bin as f64 + 0.5) / bins as f64).collect();

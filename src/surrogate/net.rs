@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::basis::{Family, Term, polynomials};
+use super::basis::Term;
+use super::family::{Family, polynomials};
 use crate::design::Design;
 
 /// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a

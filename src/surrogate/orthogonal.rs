@@ -1,7 +1,6 @@
 //! Polynomials orthonormal under the distribution of a factor, in its values: a model that is smooth in the values need
 //! not be smooth in the quantiles, and a factor with few levels needs few polynomials.
 
-use super::basis::recurred;
 use crate::space::Distribution;
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
@@ -171,6 +170,18 @@ pub(super) fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
         RULE.into_iter()
             .map(move |(node, weight)| (low + width * (f64::from(part) + (1.0 + node) / 2.0), weight * width / 2.0))
     })
+}
+
+/// Returns the polynomials p_1, p_2, ... at `x`, of which p_(n+1) is `next`(n, x, p_n, p_(n-1)); p_0 = 1, p_(-1) = 0.
+pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<Vec<f64>> {
+    let (mut before, mut now) = (vec![0.0; x.len()], vec![1.0; x.len()]);
+    let mut columns = Vec::with_capacity(degree);
+    for n in 0..degree {
+        let following = now.iter().zip(&before).zip(x).map(|((p, q), x)| next(n as f64, *x, *p, *q)).collect();
+        before = std::mem::replace(&mut now, following);
+        columns.push(now.clone());
+    }
+    columns
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::estimate::PointOutputs;
 
 /// The outputs of one net.
 #[derive(Debug, Clone)]
-pub(super) struct OutputTable {
+pub(crate) struct OutputTable {
     /// For each run a column with a value for each base point, which is not finite if the run failed.
     pub runs: Vec<Vec<f64>>,
 }
@@ -39,7 +39,7 @@ impl OutputTable {
 
 /// The mean and standard deviation by which outputs are scaled.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     pub mean: f64,
     pub sd: f64,
 }
@@ -58,7 +58,7 @@ impl Scale {
 
 /// One output at every net, in units of its standard deviation from its mean.
 #[derive(Debug, Clone)]
-pub(super) struct ScaledOutput {
+pub(crate) struct ScaledOutput {
     pub nets: Vec<OutputTable>,
     pub scale: Scale,
 }

@@ -30,7 +30,7 @@ pub(crate) struct ErrorKind {
 
 impl ErrorKind {
     /// Returns the behaviour of quantities of this kind: indices and their sums are sums of contributions of one sign.
-    pub fn of(kind: Kind) -> Self {
+    pub fn of_kind(kind: Kind) -> Self {
         let side = if kind == Kind::Difference { Side::Both } else { Side::Above };
         Self { side, is_pooled: kind == Kind::Index }
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::surrogate::basis::{Family, polynomials};
+use crate::surrogate::family::{Family, polynomials};
 
 #[test]
 fn rows_that_misrepresent_a_factor_have_less_variance_than_the_expansion() {

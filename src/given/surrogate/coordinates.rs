@@ -6,7 +6,7 @@ use super::SurrogateRefusal;
 use crate::given::Column;
 use crate::given::order::Order;
 use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
-use crate::surrogate::basis::Family;
+use crate::surrogate::family::Family;
 use crate::surrogate::{Trial, trials};
 use apportion_base::sum::{range, rescaled};
 

@@ -18,13 +18,13 @@ use thiserror::Error;
 
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
-use crate::correction::{Effects, NamedTerm};
 use crate::space::Distribution;
-use crate::surrogate::basis::{Caps, polynomials};
+use crate::surrogate::basis::Caps;
 use crate::surrogate::extrapolation::ExtrapolationError;
+use crate::surrogate::family::polynomials;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
-use crate::surrogate::{cross_fitted, leading_terms};
+use crate::surrogate::{Effects, NamedTerm, cross_fitted, leading_terms};
 use crate::uncertainty::Estimate;
 
 /// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.

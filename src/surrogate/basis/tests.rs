@@ -1,4 +1,5 @@
 use super::*;
+use crate::surrogate::family::polynomials;
 use apportion_base::sum::product;
 
 fn legendre(factors: usize) -> Vec<Family> {

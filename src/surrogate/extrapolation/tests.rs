@@ -1,7 +1,7 @@
 use super::*;
-use crate::correction::Knot;
 use crate::space::Distribution;
-use crate::surrogate::knots::Knotted;
+use crate::surrogate::Knot;
+use crate::surrogate::family::Knotted;
 use apportion_base::special::{normal_below, normal_quantile};
 
 fn extrapolation(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> ExtrapolationError {

@@ -1,4 +1,5 @@
-use super::super::basis::{first_terms, polynomials};
+use super::super::basis::first_terms;
+use super::super::family::polynomials;
 use super::*;
 use crate::space::Distribution;
 

@@ -1,10 +1,10 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::correction::NamedTerm;
 use apportion::effect::IndexPair;
 use apportion::given::Measure;
 use apportion::result::{EstimatorRecord, Named, OutputResult, PairRecord, RunMeasures, StudyResult, SurrogateRecord};
+use apportion::surrogate::NamedTerm;
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, DataFile, Part, Rows, Table, csv};

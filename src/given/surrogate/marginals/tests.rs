@@ -1,5 +1,6 @@
 use super::*;
-use crate::surrogate::basis::{Family, Term, polynomials};
+use crate::surrogate::basis::Term;
+use crate::surrogate::family::{Family, polynomials};
 
 const X: [[f64; 8]; 2] = [[0.1, 0.9, 0.35, 0.7, 0.2, 0.55, 0.8, 0.05], [-1.0, 0.5, 0.0, 2.0, 1.5, -0.5, 0.25, 0.75]];
 

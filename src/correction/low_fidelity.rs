@@ -14,20 +14,22 @@
 
 use rayon::prelude::*;
 
-use super::basis::{Caps, Family, Term, add_to};
-use super::fit::Expansion;
-use super::net::Net;
-use super::outputs::{OutputTable, Scale, ScaledOutput};
-use super::{
-    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points,
-    in_chunks, takes_surrogates,
-};
-use crate::correction::{
-    Contributions, Effects, LowFidelityUse, SurrogateEstimates, interaction, mean_power, values_and_rest,
-};
+use super::contributions::{Contributions, interaction, mean_power};
+use super::estimates::SurrogateEstimates;
+use super::nets::{Corrected, estimates, in_chunks};
+use super::surrogate_use::LowFidelityUse;
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
+use crate::surrogate::basis::{Caps, Term, add_to};
+use crate::surrogate::family::Family;
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::fit::values_and_rest;
+use crate::surrogate::net::Net;
+use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
+use crate::surrogate::{
+    Effects, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,
+};
 
 /// One output of a low-fidelity model.
 #[derive(Clone)]

@@ -6,19 +6,23 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::basis::{Caps, Family, Term, degree_alone};
-use super::fit::{Expansion, Training};
-use super::knots::{Knotted, MAX_MOVED, MovedValues, knots};
-use super::net::Net;
-use super::outputs::{OutputTable, ScaledOutput};
-use super::{
-    Corrected, MAX_HERMITE_DEGREES, Trial, estimates, fewest_points, fitted_design, fitted_to_others, in_chunks,
-    surrogate_estimates, takes_surrogates, trials,
-};
-use crate::correction::{ChosenTerms, Contributions, Effects, Knot, SurrogateEstimates, values_and_rest};
+use super::contributions::Contributions;
+use super::estimates::SurrogateEstimates;
+use super::nets::{Corrected, estimates, in_chunks};
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
+use crate::surrogate::basis::{Caps, Term, degree_alone};
+use crate::surrogate::family::{Family, Knotted};
+use crate::surrogate::fit::values_and_rest;
+use crate::surrogate::fit::{Expansion, Training};
+use crate::surrogate::knots::{MAX_MOVED, MovedValues, knots};
+use crate::surrogate::net::Net;
+use crate::surrogate::outputs::{OutputTable, ScaledOutput};
+use crate::surrogate::{
+    ChosenTerms, Effects, Knot, MAX_HERMITE_DEGREES, Trial, fewest_points, fitted_design, fitted_to_others,
+    takes_surrogates, trials,
+};
 
 /// Maximum number of outputs that are fitted one by one: separate terms gain more than they cost.
 const MAX_ALONE: usize = 32;
@@ -31,6 +35,23 @@ const ROUGH: f64 = 1e-4;
 
 /// Maximum ratio of the residual with knots to that of polynomials for which knots are used.
 const KNOTS_RATIO: f64 = 0.9;
+
+/// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms
+/// that a longer run has `chosen` if there is one; `None` if there are too few nets or points, the points are not
+/// Sobol' nets, or an output has no variance.
+fn surrogate_estimates(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    replicates: &[&PointOutputs],
+    chosen: Option<&ChosenTerms>,
+) -> Option<SurrogateEstimates> {
+    if !takes_surrogates(design, replicates.len()) {
+        return None;
+    }
+    let output = ScaledOutput::new(replicates, design.runs().len(), None)?;
+    fit_outputs(design, families, layout, &output.complete_points(), &[&output], chosen).pop().flatten()
+}
 
 /// Returns the estimates of [`surrogate_estimates`] for each of `outputs`, which have the outputs of every replicate,
 /// by the terms of the same output in `longer`, those of a longer run, if there are any; above 32 outputs by shared

@@ -1,0 +1,66 @@
+//! Fits to all nets but one.
+
+use rayon::prelude::*;
+
+use super::basis::{Caps, Term, first_terms};
+use super::fit::{Expansion, MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
+use super::identifiable::IdentifiableTerms;
+use super::net::Net;
+
+/// Returns for every net the expansion fitted to the others.
+pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
+    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
+    fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
+}
+
+/// Returns for every net the expansions of all outputs fitted to the `training` runs of the others; in one round of few
+/// candidates if a longer run has `chosen` terms for each net.
+pub(crate) fn fitted_to_others(
+    nets: &[Net],
+    training: &[Training<'_>],
+    caps: Caps<'_>,
+    chosen: Option<&[Vec<Term>]>,
+) -> Vec<Vec<Expansion>> {
+    let identifiable = IdentifiableTerms::new(nets, caps);
+    if let Some(chosen) = chosen {
+        let fits = chosen.par_iter().enumerate();
+        let fits =
+            fits.map(|(k, terms)| fitted_without(training, k, &identifiable.retain(terms.clone()), &identifiable, 1));
+        return fits.collect();
+    }
+    let (candidates, rows) = (first_round(nets, &identifiable), selection_rows(nets.len() - 1));
+    let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+    let fits = (0..nets.len()).into_par_iter();
+    let fits = fits.map(|k| fit(&without(training, k), &candidates, &without(&sums, k), &identifiable, MAX_ROUNDS));
+    fits.collect()
+}
+
+/// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates`
+/// on.
+fn fitted_without(
+    training: &[Training<'_>],
+    k: usize,
+    candidates: &[Term],
+    identifiable: &IdentifiableTerms<'_>,
+    max_rounds: usize,
+) -> Vec<Expansion> {
+    let (others, rows) = (without(training, k), selection_rows(training.len() - 1));
+    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, candidates, rows)).collect();
+    fit(&others, candidates, &sums.iter().collect::<Vec<_>>(), identifiable, max_rounds)
+}
+
+/// Returns the expansion fitted to all nets except number `k`.
+pub(crate) fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
+    let identifiable = IdentifiableTerms::new(nets, caps);
+    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
+    fitted_without(&training, k, &first_round(nets, &identifiable), &identifiable, MAX_ROUNDS).swap_remove(0)
+}
+
+/// Returns the candidates of the first round.
+fn first_round(nets: &[Net], identifiable: &IdentifiableTerms<'_>) -> Vec<Term> {
+    let training = nets.len() - 1;
+    let rows = selection_rows(training);
+    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
+    let caps = identifiable.caps;
+    identifiable.retain(first_terms(caps, caps.terms.min(20.max(2 * all_rows))))
+}

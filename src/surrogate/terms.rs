@@ -1,0 +1,98 @@
+//! The terms of surrogates: their effects, and the largest of them.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::basis::{Term, add_to};
+use super::family::Knot;
+use super::fit::Expansion;
+use crate::design::Design;
+use crate::effect::Layout;
+
+/// Number of terms that are reported.
+const MAX_LEADING_TERMS: usize = 12;
+
+/// The terms of the surrogates of every net.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenTerms {
+    /// Index of the kind of polynomials.
+    pub kind: usize,
+    /// The knots of every factor; empty for polynomials only.
+    pub knots: Vec<Vec<Knot>>,
+    /// For each net the terms of the surrogate of the others: the factors in each, by index, with their degrees.
+    pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
+}
+
+/// A term of a surrogate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurrogateTerm {
+    /// The factors in it, by index, each with its degree.
+    pub factors: Vec<(usize, usize)>,
+    /// Its share of the variance.
+    pub share: f64,
+}
+
+impl SurrogateTerm {
+    /// Returns the term with these names of factors or inputs.
+    pub fn named(&self, names: &[&str]) -> NamedTerm {
+        let degrees = self.factors.iter().map(|&(number, degree)| (names[number].to_owned(), degree));
+        NamedTerm { degrees: degrees.collect(), share: 100.0 * self.share }
+    }
+}
+
+/// A term of the surrogates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct NamedTerm {
+    /// The degree of its polynomial of each factor in it.
+    pub degrees: BTreeMap<String, usize>,
+    /// Its share of the variance, in percent.
+    pub share: f64,
+}
+
+/// The effects whose numbers are corrected.
+pub struct Effects {
+    /// The factors of every swap, in rising order.
+    pub swaps: Vec<Vec<usize>>,
+    /// The pairs of swaps with second-order indices, in the order of the layout.
+    pub pairs: Vec<(usize, usize)>,
+}
+
+impl Effects {
+    /// Returns those of the swaps of `design` in `layout`.
+    pub fn new(design: &Design, layout: &Layout) -> Self {
+        let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
+        swaps.iter_mut().for_each(|swap| swap.sort_unstable());
+        Self { swaps, pairs: if layout.second_order { layout.pair_list() } else { Vec::new() } }
+    }
+}
+
+/// Returns whether all factors of a term are in a swap.
+pub(crate) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
+    !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
+}
+
+pub(crate) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
+    term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
+}
+
+/// Returns whether a term has factors of two swaps, and none of others.
+pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
+    let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
+    touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
+}
+
+/// Returns the terms of all surrogates by their mean share of the variance.
+pub(crate) fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
+    let mut terms: Vec<(&Term, f64)> = Vec::new();
+    for expansion in expansions {
+        for (term, b) in expansion.varying() {
+            let share = b * b / variance / expansions.len() as f64;
+            add_to(&mut terms, term, share);
+        }
+    }
+    terms.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(b.0)));
+    terms.truncate(MAX_LEADING_TERMS);
+    terms.into_iter().map(|(term, share)| SurrogateTerm { factors: term.clone(), share }).collect()
+}
