@@ -80,7 +80,7 @@ fn half_width(result: &StudyResult) -> f64 {
 /// The largest error of an index.
 fn error(result: &StudyResult, truth: &[[f64; 2]]) -> f64 {
     let Some(indices) = &result.outputs[0].indices else { return f64::INFINITY };
-    let of_factor = |(index, [first, total]): (&apportion::result::IndexRecord, &[f64; 2])| {
+    let of_factor = |(index, [first, total]): (&apportion::result::Named<apportion::EffectEstimates>, &[f64; 2])| {
         (index.effect.first_order.estimate - first).abs().max((index.effect.total.estimate - total).abs())
     };
     indices.iter().zip(truth).map(of_factor).fold(0.0, f64::max)

@@ -246,7 +246,7 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
         // By the formulas of Saltelli and of Jansen.
         let before = |output: &OutputResult, k: usize| {
             let by = |estimator: usize| &output.estimators[estimator].indices[k];
-            [by(0).first_order, by(1).total].map(|estimate| estimate.expect("an estimate"))
+            [by(0).effect.first_order, by(1).effect.total].map(|estimate| estimate.expect("an estimate"))
         };
         let mut used = (0.0, 0.0);
         if let Some(corrected) = run(seed, &[&base_samples, "analysis.surrogate=\"on\""]) {

@@ -3,14 +3,11 @@
 use super::output_indices::{EffectIndices, OutputIndices};
 use super::stages::Stage;
 use crate::correction::SurrogateUse;
-use crate::effect::{Effect, OfMean};
+use crate::effect::{Effect, IndexPair, OfMean};
 use crate::estimate::{FirstOrder, Total};
-use crate::result::{
-    EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OtherIndexRecord, OutputResult, PairRecord,
-    PlainIndexRecord, StageRecord, SubsetRecord, SurrogateRecord,
-};
+use crate::result::{EstimatorRecord, Named, NoiseRecord, OutputResult, PairRecord, StageRecord, SurrogateRecord};
 use crate::study::{Study, StudyEffect};
-use crate::uncertainty::Estimate;
+use crate::uncertainty::{EffectEstimates, Estimate};
 
 /// Adds `indices` to `record`, with the names of their factors, groups and subsets.
 pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &OutputIndices) {
@@ -20,15 +17,13 @@ pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &Ou
         record.sum_total = Some(indices.sums.total);
     }
     let (mut factors, mut groups, mut subsets) = (Vec::new(), Vec::new(), Vec::new());
-    for (StudyEffect { effect, name, factors: members }, of) in effects.iter().zip(&indices.effects) {
-        let (name, effect_estimates) = (name.clone(), of.estimates);
-        let members = || members.iter().map(|&number| study.space.factors()[number].name.clone()).collect();
-        match effect {
-            Effect::Factor(_) => factors.push(IndexRecord { factor: name, effect: effect_estimates }),
-            Effect::Group(_) => groups.push(GroupRecord { group: name, factors: members(), effect: effect_estimates }),
-            Effect::Subset(_) => subsets.push(SubsetRecord { factors: members(), effect: effect_estimates }),
-            Effect::Dummy => record.dummy = Some(effect_estimates),
-            Effect::Noise => record.noise = noise_record(name, of, &effects, indices),
+    for (effect, of) in effects.iter().zip(&indices.effects) {
+        match effect.effect {
+            Effect::Factor(_) => factors.push(named(study, effect, of.estimates)),
+            Effect::Group(_) => groups.push(named(study, effect, of.estimates)),
+            Effect::Subset(_) => subsets.push(named(study, effect, of.estimates)),
+            Effect::Dummy => record.dummy = Some(of.estimates),
+            Effect::Noise => record.noise = noise_record(study, effect, of, &effects, indices),
         }
     }
     (record.indices, record.groups, record.subsets) = (Some(factors), Some(groups), Some(subsets));
@@ -43,8 +38,19 @@ pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &Ou
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, &effects, indices, used));
 }
 
+/// Returns what belongs to `effect` under its name.
+pub(super) fn named<T>(study: &Study, effect: &StudyEffect, of: T) -> Named<T> {
+    let factors = match effect.effect {
+        Effect::Group(_) | Effect::Subset(_) => &effect.factors[..],
+        _ => &[],
+    };
+    let factors = factors.iter().map(|&number| study.space.factors()[number].name.clone()).collect();
+    Named { name: effect.name.clone(), factors, effect: of }
+}
+
 fn noise_record(
-    name: String,
+    study: &Study,
+    effect: &StudyEffect,
     noise: &EffectIndices,
     effects: &[StudyEffect],
     indices: &OutputIndices,
@@ -52,23 +58,21 @@ fn noise_record(
     let real = effects.iter().zip(&indices.effects).filter(|(effect, _)| effect.effect != Effect::Dummy);
     let of_mean = real.filter_map(|(effect, of)| {
         let OfMean { first_order, total } = of.of_mean?;
-        Some(OtherIndexRecord { name: effect.name.clone(), first_order, total: total.flatten() })
+        Some(named(study, effect, IndexPair { first_order, total: total.flatten() }))
     });
-    Some(NoiseRecord { name, effect: noise.estimates, mean_share: indices.mean_share?, of_mean: of_mean.collect() })
+    let (name, of_mean) = (effect.name.clone(), of_mean.collect());
+    Some(NoiseRecord { name, effect: noise.estimates, mean_share: indices.mean_share?, of_mean })
 }
 
 /// Returns the records of all effects except the noise, which has its own entry.
 fn other_records(
+    study: &Study,
     effects: &[StudyEffect],
     indices: &OutputIndices,
-    read: impl Fn(&EffectIndices) -> (Option<Estimate>, Option<Estimate>),
-) -> Vec<OtherIndexRecord> {
-    let mut records = Vec::new();
-    for (effect, of) in effects.iter().zip(&indices.effects).filter(|(effect, _)| effect.effect != Effect::Noise) {
-        let (first_order, total) = read(of);
-        records.push(OtherIndexRecord { name: effect.name.clone(), first_order, total });
-    }
-    records
+    read: impl Fn(&EffectIndices) -> IndexPair<Option<Estimate>>,
+) -> Vec<Named<IndexPair<Option<Estimate>>>> {
+    let effects = effects.iter().zip(&indices.effects).filter(|(effect, _)| effect.effect != Effect::Noise);
+    effects.map(|(effect, of)| named(study, effect, read(of))).collect()
 }
 
 fn surrogate_record(
@@ -86,9 +90,7 @@ fn surrogate_record(
         gain_first_order: used.gain_first_order,
         gain_total: used.gain_total,
         leading_terms: used.terms.iter().map(|term| term.named(&names)).collect(),
-        plain: other_records(effects, indices, |of| {
-            (of.plain.map(|plain| plain.first_order), of.plain.map(|plain| plain.total))
-        }),
+        plain: other_records(study, effects, indices, |of| of.plain.map(|plain| plain.map(Some)).unwrap_or_default()),
         low: used.low.clone(),
     }
 }
@@ -101,9 +103,9 @@ fn estimator_records(study: &Study, effects: &[StudyEffect], indices: &OutputInd
             estimator: estimator.name().to_owned(),
             first_order_source: first_order.map(FirstOrder::source).map(str::to_owned),
             total_source: total.map(Total::source).map(str::to_owned),
-            indices: other_records(effects, indices, |of| {
+            indices: other_records(study, effects, indices, |of| {
                 let other = of.checks.others[number];
-                (other.first_order, other.total)
+                IndexPair { first_order: other.first_order, total: other.total }
             }),
         });
     }
@@ -114,10 +116,9 @@ fn estimator_records(study: &Study, effects: &[StudyEffect], indices: &OutputInd
 pub(super) fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
     let effects = study.effects().into_iter().zip(&stage.indices.effects);
     let factors = effects.filter(|(effect, _)| effect.effect.is_factor());
-    let indices = factors.map(|(effect, of)| PlainIndexRecord {
-        factor: effect.name,
-        first_order: of.estimates.first_order,
-        total: of.estimates.total,
+    let indices = factors.map(|(effect, of)| {
+        let EffectEstimates { first_order, total, .. } = of.estimates;
+        named(study, &effect, IndexPair { first_order, total })
     });
     StageRecord {
         base_samples: stage.base_samples,

@@ -2,8 +2,9 @@
 
 use super::first_rows::FirstRows;
 use crate::design::Design;
-use crate::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
+use crate::result::{ConditionalMeansRecord, Named, ScatterRecord};
 use crate::space::{Distribution, Factor, Space};
+use crate::uncertainty::EffectEstimates;
 use apportion_base::quantity::Unit;
 use apportion_base::sum::{centred_product, mean, rescaled};
 
@@ -35,7 +36,7 @@ pub(super) fn scatter_record(
     rows: &FirstRows,
     space: &Space,
     (unit, samples): (&Unit, &[Vec<f64>]),
-    indices: &[IndexRecord],
+    indices: &[Named<EffectEstimates>],
 ) -> Option<ScatterRecord> {
     let factors = space.factors();
     let inputs: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
@@ -65,7 +66,7 @@ pub(super) fn scatter_record(
 }
 
 /// Returns the indices of the factors with the largest total indices, the largest first.
-fn largest(indices: &[IndexRecord]) -> Vec<usize> {
+fn largest(indices: &[Named<EffectEstimates>]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..indices.len()).collect();
     order.sort_by(|&a, &b| indices[b].effect.total.estimate.total_cmp(&indices[a].effect.total.estimate));
     order.truncate(FACTORS);

@@ -2,13 +2,15 @@
 
 use super::aggregate::{AggregateIndices, aggregate_indices};
 use super::finished_run::FinishedRun;
+use super::indices::named;
 use crate::correction::SurrogateEstimates;
-use crate::effect::Effect;
+use crate::effect::{Effect, IndexPair};
 use crate::estimate::{MomentParts, Scaling, Undefined};
 use crate::model::Model;
-use crate::result::{PlainIndexRecord, SeriesRecord};
+use crate::result::{Named, SeriesRecord};
 use crate::run::Totals;
 use crate::study::Study;
+use crate::uncertainty::Estimate;
 
 /// Returns the results for every series of the model; `whole` holds the counts over all replicates, `surrogates` the
 /// surrogate estimates of every output.
@@ -58,11 +60,9 @@ pub(super) fn together_records(
     study: &Study,
     all: &AggregateIndices,
     is_wanted: fn(Effect) -> bool,
-) -> Vec<PlainIndexRecord> {
+) -> Vec<Named<IndexPair<Estimate>>> {
     let effects = study.effects().into_iter().zip(&all.indices).filter(|(effect, _)| is_wanted(effect.effect));
-    effects
-        .map(|(effect, of)| PlainIndexRecord { factor: effect.name, first_order: of.first_order, total: of.total })
-        .collect()
+    effects.map(|(effect, of)| named(study, &effect, *of)).collect()
 }
 
 /// Returns the places of the outputs that belong to no series.

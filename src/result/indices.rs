@@ -3,54 +3,23 @@
 use serde::{Deserialize, Serialize};
 
 use crate::correction::LowFidelityUse;
+use crate::effect::IndexPair;
 use crate::surrogate::NamedTerm;
 use crate::uncertainty::{EffectEstimates, Estimate};
 
-/// The indices of one factor, or of a group in place of its factors.
+/// The indices of a factor, a group or a subset, under its name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct IndexRecord {
-    /// The factor or group.
-    pub factor: String,
-    /// The indices.
-    #[serde(flatten)]
-    pub effect: EffectEstimates,
-}
-
-/// First-order and total index of one factor at a stage of a run, or over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PlainIndexRecord {
-    /// The factor.
-    pub factor: String,
-    /// First-order index.
-    pub first_order: Estimate,
-    /// Total index.
-    pub total: Estimate,
-}
-
-/// The indices of one group of factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct GroupRecord {
-    /// The group.
-    pub group: String,
-    /// Its factors.
+pub struct Named<T> {
+    /// The factor, the group, or the factors of the subset joined by " + ".
+    #[serde(rename = "factor")]
+    pub name: String,
+    /// The factors of a group or subset; empty (in JSON absent) for a factor, and for a group in place of its factors.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<String>,
-    /// The indices: the first-order one is closed, so it includes interactions inside the group.
+    /// The indices; the first-order one of several factors is closed, so it includes their interactions.
     #[serde(flatten)]
-    pub effect: EffectEstimates,
-}
-
-/// The joint indices of a subset of the factors that the study lists.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SubsetRecord {
-    /// Its factors.
-    pub factors: Vec<String>,
-    /// The indices: the first-order one is closed, so it includes interactions inside the subset.
-    #[serde(flatten)]
-    pub effect: EffectEstimates,
+    pub effect: T,
 }
 
 /// The second-order index of two factors.
@@ -73,20 +42,8 @@ pub struct EstimatorRecord {
     pub first_order_source: Option<String>,
     /// Source of its total formula; `null` if it has none.
     pub total_source: Option<String>,
-    /// One entry per factor, then per group, then per subset, in the order of the lists above.
-    pub indices: Vec<OtherIndexRecord>,
-}
-
-/// Indices of one factor, group or subset in addition to the default ones, or of the mean over the noise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct OtherIndexRecord {
-    /// The factor, the group, or the factors of the subset joined by " + ".
-    pub name: String,
-    /// (Closed) first-order index; `null` if the estimator has none, or the runs show no variance of the mean.
-    pub first_order: Option<Estimate>,
-    /// Total index; `null` if the estimator has none, or without the joint index with the noise (`mean_totals = true`).
-    pub total: Option<Estimate>,
+    /// One entry per factor, then per group, then per subset, in the order of the lists above; `null` without a formula.
+    pub indices: Vec<Named<IndexPair<Option<Estimate>>>>,
 }
 
 /// The noise of a stochastic model: its indices, relative to the variance of a single run, and those of the mean.
@@ -101,7 +58,9 @@ pub struct NoiseRecord {
     /// The rest of the variance, 1 minus the total index: that of the mean over the noise.
     pub mean_share: Estimate,
     /// Indices of the mean over the noise, relative to its own variance: for factors, groups and subsets without it.
-    pub of_mean: Vec<OtherIndexRecord>,
+    /// First-order ones are `null` if the runs show no variance of the mean, total ones without the joint index with
+    /// the noise (`mean_totals = true`).
+    pub of_mean: Vec<Named<IndexPair<Option<Estimate>>>>,
 }
 
 /// The surrogates of an output: polynomials fitted to all replicates but one, which correct the indices of that one.
@@ -123,7 +82,7 @@ pub struct SurrogateRecord {
     /// The terms with the largest variance.
     pub leading_terms: Vec<NamedTerm>,
     /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
-    pub plain: Vec<OtherIndexRecord>,
+    pub plain: Vec<Named<IndexPair<Option<Estimate>>>>,
     /// The low-fidelity model used with them, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub low: Option<LowFidelityUse>,

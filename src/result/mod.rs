@@ -31,10 +31,11 @@ pub use stopping::{StopReason, StoppingRecord};
 pub use warning::{IndexKind, Irreproducible, Warning};
 
 use crate::design::Sampler;
+use crate::effect::IndexPair;
 use crate::estimate::Scaling;
 use crate::space::{CorrelationMeasure, IndicesOf};
 use crate::surrogate::SurrogateChoice;
-use crate::uncertainty::IntervalMethod;
+use crate::uncertainty::{Estimate, IntervalMethod};
 
 /// The result of a run of a [`Study`](crate::Study).
 ///
@@ -256,9 +257,9 @@ pub struct AggregateRecord {
     /// How outputs are weighted against each other.
     pub weighting: Scaling,
     /// One entry per factor; `null` if an output has no indices.
-    pub indices: Option<Vec<PlainIndexRecord>>,
+    pub indices: Option<Vec<Named<IndexPair<Estimate>>>>,
     /// The noise of a stochastic model, which is not a factor.
-    pub noise: Option<PlainIndexRecord>,
+    pub noise: Option<Named<IndexPair<Estimate>>>,
     /// Why there are no indices.
     pub reason: Option<String>,
 }
@@ -294,7 +295,7 @@ pub struct SeriesRecord {
     /// The position of every value on the axis, in rising order.
     pub positions: Vec<f64>,
     /// Indices over all values, each weighted by its variance, one entry per factor; `null` if a value has none.
-    pub indices: Option<Vec<PlainIndexRecord>>,
+    pub indices: Option<Vec<Named<IndexPair<Estimate>>>>,
     /// Why there are no indices.
     pub reason: Option<String>,
 }

@@ -7,10 +7,8 @@ use thiserror::Error;
 #[cfg(feature = "schema")]
 use super::warning::WithText;
 use super::warning::{Warning, with_texts};
-use super::{
-    EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OutputDistribution, PairRecord, PlainIndexRecord,
-    SubsetRecord, SurrogateRecord,
-};
+use super::{EstimatorRecord, Named, NoiseRecord, OutputDistribution, PairRecord, SurrogateRecord};
+use crate::effect::IndexPair;
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
 
@@ -43,11 +41,11 @@ pub struct OutputResult {
     /// Sum of the total indices.
     pub sum_total: Option<Estimate>,
     /// One entry per factor, or per group and factor without one (`indices_of`); `null` if indices are undefined.
-    pub indices: Option<Vec<IndexRecord>>,
+    pub indices: Option<Vec<Named<EffectEstimates>>>,
     /// One entry per group; `null` if indices are undefined.
-    pub groups: Option<Vec<GroupRecord>>,
+    pub groups: Option<Vec<Named<EffectEstimates>>>,
     /// One entry per subset that the study lists; `null` if indices are undefined.
-    pub subsets: Option<Vec<SubsetRecord>>,
+    pub subsets: Option<Vec<Named<EffectEstimates>>>,
     /// Indices of a factor without effect, if one was added: the noise of the model.
     pub dummy: Option<EffectEstimates>,
     /// The noise of a stochastic model, which is not a factor, and the indices of the mean over it.
@@ -83,7 +81,7 @@ impl OutputResult {
     /// [`LookupError`] if there is no such factor, or if the output has no indices.
     pub fn factor(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
         let indices = self.existing(self.indices.as_deref())?;
-        Ok(&find("factor", name, indices, |index| &index.factor)?.effect)
+        Ok(&find("factor", name, indices, |index| &index.name)?.effect)
     }
 
     /// Returns the indices of the group called `name`: the first-order one is closed, with the group's interactions.
@@ -92,17 +90,15 @@ impl OutputResult {
     /// As for [`factor`](Self::factor).
     pub fn group(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
         let groups = self.existing(self.groups.as_deref())?;
-        Ok(&find("group", name, groups, |group| &group.group)?.effect)
+        Ok(&find("group", name, groups, |group| &group.name)?.effect)
     }
 
     /// Returns half the width of the widest interval of a first-order or total index, or of a Shapley effect, of
     /// factors, the noise, groups and subsets; `None` without indices, or if one of them has no interval.
     pub fn largest_half_width(&self) -> Option<f64> {
-        let factors = self.indices.as_ref()?.iter().map(|index| &index.effect);
-        let noise = self.noise.iter().map(|noise| &noise.effect);
-        let groups = self.groups.iter().flatten().map(|group| &group.effect);
-        let subsets = self.subsets.iter().flatten().map(|subset| &subset.effect);
-        let effects = factors.chain(noise).chain(groups).chain(subsets);
+        let named =
+            self.indices.as_ref()?.iter().chain(self.groups.iter().flatten()).chain(self.subsets.iter().flatten());
+        let effects = named.map(|named| &named.effect).chain(self.noise.iter().map(|noise| &noise.effect));
         largest_half_width(effects.flat_map(EffectEstimates::indices))
     }
 
@@ -150,7 +146,7 @@ pub struct StageRecord {
     /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
     pub largest_half_width: Option<f64>,
     /// First-order and total index of every factor.
-    pub indices: Vec<PlainIndexRecord>,
+    pub indices: Vec<Named<IndexPair<Estimate>>>,
 }
 
 /// The relation of an output to the factors with the largest total indices.

@@ -221,9 +221,9 @@ fn plain_runs(study: &Study, result: &StudyResult, accuracy: f64) -> Option<u64>
     for output in result.outputs.iter().filter(|output| output.indices.is_some()) {
         let half_width = match &output.surrogate {
             None => output.largest_half_width(),
-            Some(used) => {
-                largest_half_width(used.plain.iter().flat_map(|plain| [plain.first_order, plain.total]).flatten())
-            }
+            Some(used) => largest_half_width(
+                used.plain.iter().flat_map(|plain| [plain.effect.first_order, plain.effect.total]).flatten(),
+            ),
         };
         widest = widest.max(half_width?);
     }

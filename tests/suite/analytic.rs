@@ -55,7 +55,7 @@ fn the_product_form_in_one_replicate_is_within_2e_3() {
     assert!(error < 2e-3, "{error}");
     // Inert factors are exactly inert.
     for inert in ["height", "velocity", "equivalent_modulus", "adhesion"] {
-        let index = indices(&result).iter().find(|index| index.factor == inert).unwrap();
+        let index = indices(&result).iter().find(|index| index.name == inert).unwrap();
         assert_eq!((index.effect.first_order.estimate, index.effect.total.estimate), (0.0, 0.0), "{inert}");
     }
 }
@@ -118,7 +118,7 @@ fn groups_of_the_product_form_are_products_too() {
     let exact = [("dimensional", x / all, x * (1.0 + y) / all), ("environmental", y / all, y * (1.0 + x) / all)];
     let groups = result.outputs[0].groups.as_deref().unwrap();
     for (group, (name, first, total)) in groups.iter().zip(exact) {
-        assert_eq!(group.group, name);
+        assert_eq!(group.name, name);
         assert!((group.effect.first_order.estimate - first).abs() < 5e-3);
         assert!((group.effect.total.estimate - total).abs() < 5e-3);
     }
@@ -170,7 +170,7 @@ fn height_and_velocity_do_not_act_on_the_closed_form() {
         let result = analysed("coulomb-general", &[&format!("afm.friction={friction}"), "design.base_samples=1024"]);
         let inert: &[&str] = if friction == "lugre" { &["height"] } else { &["height", "velocity"] };
         for &name in inert {
-            let index = indices(&result).iter().find(|index| index.factor == name).unwrap();
+            let index = indices(&result).iter().find(|index| index.name == name).unwrap();
             assert!(index.effect.first_order.estimate.abs() < 1e-12);
             assert!(index.effect.total.estimate.abs() < 1e-12);
         }

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 use apportion::EffectEstimates;
-use apportion::result::{IndexRecord, OutputResult, StudyResult};
+use apportion::result::{Named, OutputResult, StudyResult};
 
 /// Ishigami's function where |x3| < 3, and a failure in the other 4.5 % of the rows.
 pub const HOLES: &str = "model = \"expression\"\n\
@@ -183,7 +183,7 @@ pub fn analysed(name: &str, overrides: &[&str]) -> StudyResult {
 }
 
 /// The indices of the first output.
-pub fn indices(result: &StudyResult) -> &[IndexRecord] {
+pub fn indices(result: &StudyResult) -> &[Named<EffectEstimates>] {
     result.outputs[0].indices.as_deref().unwrap()
 }
 

@@ -50,7 +50,7 @@ fn known(analysis: &StudyResult) -> Vec<(f64, Estimate)> {
         known.extend([(first, factor.first_order), (total, factor.total)]);
     }
     for (of, (first, total)) in noise.of_mean.iter().zip([(0.125, 0.5), (0.5, 0.875), (0.0, 0.0)]) {
-        known.extend([(first, of.first_order.unwrap()), (total, of.total.unwrap())]);
+        known.extend([(first, of.effect.first_order.unwrap()), (total, of.effect.total.unwrap())]);
     }
     known
 }
@@ -110,11 +110,11 @@ fn without_noise_all_is_as_without_it() {
     // The mean over it is the output itself.
     assert_eq!(noise.mean_share.estimate, 1.0);
     for (of_mean, factor) in noise.of_mean.iter().zip(&factors) {
-        let first = of_mean.first_order.unwrap();
+        let first = of_mean.effect.first_order.unwrap();
         // The index of the mean may be missed on both sides alike, that of a run above.
         assert_eq!(first.estimate, factor.first_order.estimate);
         assert_eq!(first.interval.unwrap().high, factor.first_order.interval.unwrap().high);
-        assert!((of_mean.total.unwrap().estimate - factor.total.estimate).abs() < 1e-12);
+        assert!((of_mean.effect.total.unwrap().estimate - factor.total.estimate).abs() < 1e-12);
     }
     assert_eq!(noise.of_mean.len(), 3);
 }
@@ -143,14 +143,14 @@ fn mean_and_variance_over_repetitions_have_their_indices() {
     let all = 0.2 * 9.0 / 7.0 - 1.0 / 9.0;
     assert!((of_variance.mean_share.estimate - 4.0 / 45.0 / all).abs() < 0.05, "{:?}", of_variance.mean_share);
     for (found, exact) in of_variance.of_mean.iter().zip([0.0, 0.0, 1.0]) {
-        let found = [found.first_order, found.total].map(|index| index.unwrap().estimate);
+        let found = [found.effect.first_order, found.effect.total].map(|index| index.unwrap().estimate);
         assert!(found.iter().all(|index| (index - exact).abs() < 0.08), "{found:?} {exact}");
     }
     // The mean of 8 runs still has an eighth of the noise, and its mean the same indices as that of one run.
     let of_means = of_mean("y_mean");
     assert!((of_means.mean_share.estimate - 16.0 / 17.0).abs() < 0.02, "{:?}", of_means.mean_share);
     for (found, exact) in of_means.of_mean.iter().zip([0.5, 0.875, 0.0]) {
-        assert!((found.total.unwrap().estimate - exact).abs() < 0.03, "{found:?}");
+        assert!((found.effect.total.unwrap().estimate - exact).abs() < 0.03, "{found:?}");
     }
 }
 
@@ -270,7 +270,7 @@ fn the_example_says_which_question_each_number_answers() {
     let one = result("one");
     let noise = one.noise.as_ref().unwrap();
     assert_eq!((noise.name.as_str(), noise.of_mean.len()), ("seed", 3));
-    assert!(noise.effect.total.estimate > 0.1 && noise.of_mean.iter().all(|of_mean| of_mean.total.is_some()));
+    assert!(noise.effect.total.estimate > 0.1 && noise.of_mean.iter().all(|of_mean| of_mean.effect.total.is_some()));
     let csv = std::fs::read_to_string(folder.path("one").join("stochastic.csv")).unwrap();
     assert!(csv.lines().any(|line| line.starts_with("wait,noise,seed,")), "{csv}");
     // Sampled, evaluated and analysed in separate steps.
@@ -283,7 +283,7 @@ fn the_example_says_which_question_each_number_answers() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let estimates = |output: &apportion::OutputResult| -> Vec<f64> {
         let of_mean = output.noise.iter().flat_map(|noise| &noise.of_mean);
-        of_mean.flat_map(|of| [of.first_order.unwrap().estimate, of.total.unwrap().estimate]).collect()
+        of_mean.flat_map(|of| [of.effect.first_order.unwrap().estimate, of.effect.total.unwrap().estimate]).collect()
     };
     // Minutes are rounded on their way through the file.
     let (one, two) = (estimates(&one), estimates(&result("two")));

@@ -87,7 +87,7 @@ fn a_march_without_event_location_makes_the_velocity_look_important() {
     let velocity = |overrides: &[&str]| {
         let result = crate::common::analysed("lugre-environmental-fixed-step", overrides);
         let index = result.outputs[0].indices.as_ref().unwrap()[0].clone();
-        assert_eq!(index.factor, "velocity");
+        assert_eq!(index.name, "velocity");
         index.effect.share_total.unwrap()
     };
     // The study says "about 25 %"; with 512 base samples the error is some 1 %.
@@ -104,7 +104,7 @@ fn the_parameters_of_a_friction_law_can_be_factors() {
     assert_eq!(output.runs_failed, 0);
     let indices = output.indices.as_ref().unwrap();
     let largest = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate)).unwrap();
-    assert_eq!(largest.factor, "static_friction");
+    assert_eq!(largest.name, "static_friction");
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 /// First-order and total indices of the whole series.
 fn whole(analysis: &StudyResult) -> (Vec<f64>, Vec<f64>) {
     let indices = analysis.series("y").unwrap().indices.as_ref().unwrap();
-    indices.iter().map(|index| (index.first_order.estimate, index.total.estimate)).unzip()
+    indices.iter().map(|index| (index.effect.first_order.estimate, index.effect.total.estimate)).unzip()
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn two_factors_with_a_direction_each() {
             near(*found, expected, tolerance);
         }
         let series = analysis.series("y").unwrap();
-        assert!(series.indices.iter().flatten().all(|index| index.total.interval.is_some()));
+        assert!(series.indices.iter().flatten().all(|index| index.effect.total.interval.is_some()));
     }
 }
 
@@ -134,7 +134,7 @@ fn surrogates_of_the_values_correct_the_whole() {
     };
     let width = |analysis: &StudyResult| {
         let indices = analysis.series("y").unwrap().indices.iter().flatten();
-        let all = indices.flat_map(|index| [index.first_order, index.total]);
+        let all = indices.flat_map(|index| [index.effect.first_order, index.effect.total]);
         all.map(|index| index.interval.map(|interval| interval.high - interval.low).unwrap()).fold(0.0, f64::max)
     };
     let (off, on) = (run(SurrogateChoice::Off), run(SurrogateChoice::On));
@@ -157,8 +157,8 @@ fn a_series_of_a_stochastic_model_names_its_factors_correctly() {
     let study = builder.build().unwrap();
     let result = study.run().unwrap();
     let indices = result.series[0].indices.as_ref().unwrap();
-    assert_eq!(indices.iter().map(|index| index.factor.as_str()).collect::<Vec<_>>(), ["x1", "x2"]);
-    near(indices[0].total.estimate, 0.8, 0.02);
+    assert_eq!(indices.iter().map(|index| index.name.as_str()).collect::<Vec<_>>(), ["x1", "x2"]);
+    near(indices[0].effect.total.estimate, 0.8, 0.02);
 }
 
 /// Var(2 a sin t + b cos t) = (4 sin^2 t + cos^2 t + 4 r sin t cos t)/3, whose last term a whole turn takes away.
@@ -175,8 +175,8 @@ fn a_series_of_dependent_factors_has_their_indices() {
     let indices = result.series[0].indices.as_ref().unwrap();
     // E(y | a) = a (2 sin t + r cos t); a given b varies by 1 - r^2.
     for (index, (first, total)) in indices.iter().zip([(4.0 + r * r, 4.0), (1.0 + 4.0 * r * r, 1.0)]) {
-        near(index.first_order.estimate, first / 5.0, 0.02);
-        near(index.total.estimate, total * (1.0 - r * r) / 5.0, 0.02);
+        near(index.effect.first_order.estimate, first / 5.0, 0.02);
+        near(index.effect.total.estimate, total * (1.0 - r * r) / 5.0, 0.02);
     }
 }
 

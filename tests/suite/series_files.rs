@@ -55,7 +55,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     assert_eq!(by_cells.outputs[4].name, "y[3]");
     // V_a(k) = k^2 / 12, V_b(k) = 1/12: over k = 0 to 3, 14 of 18 parts are of a.
     let indices = series.indices.as_ref().unwrap();
-    assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
+    assert!((indices[0].effect.total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
     assert!(page(&folder.path("out")).contains("id=\"output-1\""));
 }
 

@@ -136,11 +136,11 @@ fn percentages(subject: Option<Subject<'_>>) -> Value {
     let entries = match subject {
         Some(Subject::Series(series)) => {
             let indices = series.indices.iter().flatten();
-            indices.map(|index| (index.factor.clone(), percent(index.total.estimate))).collect()
+            indices.map(|index| (index.name.clone(), percent(index.effect.total.estimate))).collect()
         }
         Some(Subject::Output(output)) => {
             let indices = output.indices.iter().flatten();
-            indices.map(|index| (index.factor.clone(), percent(index.effect.total.estimate))).collect()
+            indices.map(|index| (index.name.clone(), percent(index.effect.total.estimate))).collect()
         }
         None => Map::new(),
     };

@@ -1,8 +1,9 @@
 //! Which factor leads, as far as the intervals show: the sentences at the top of documents.
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord};
-use apportion::uncertainty::{Estimate, Interval, LEVEL};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, PairRecord};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval, LEVEL};
 use apportion_base::special::normal_quantile;
 use apportion_base::text::listed;
 
@@ -33,9 +34,9 @@ impl Contender {
     }
 
     /// Creates the contender of a factor with its index.
-    pub fn from_index(index: &IndexRecord) -> Self {
+    pub fn from_index(index: &Named<EffectEstimates>) -> Self {
         let probability = index.effect.probability_first;
-        Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
+        Self { probability, ..Self::new(name(&index.name), index.effect.weight()) }
     }
 
     /// Formats its quantity with the unit.
@@ -45,8 +46,8 @@ impl Contender {
 }
 
 /// Returns the indices of an output with their positions in the study, the largest total index first, if any.
-pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord)>> {
-    let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
+pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &Named<EffectEstimates>)>> {
+    let mut order: Vec<(usize, &Named<EffectEstimates>)> = output.indices.as_ref()?.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
     (!order.is_empty()).then_some(order)
 }
@@ -155,9 +156,9 @@ pub(super) fn leader_of(output: &OutputResult) -> String {
 }
 
 /// Says the same for several outputs together.
-pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<String> {
+pub(super) fn leader_of_all(indices: &[Named<IndexPair<Estimate>>], of: &str) -> Option<String> {
     let contenders: Vec<Contender> =
-        indices.iter().map(|index| Contender::new(name(&index.factor), index.total)).collect();
+        indices.iter().map(|index| Contender::new(name(&index.name), index.effect.total)).collect();
     leader(&contenders, of, "total index S_T", "")
 }
 

@@ -1,6 +1,7 @@
 //! Some of the outputs of a result, as the subject of a document or a section, and access to their indices.
 
-use apportion::result::{OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, SeriesRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
 
 use crate::format::name;
@@ -55,8 +56,8 @@ pub(crate) struct OutputView<'a> {
 pub(crate) struct Together<'a> {
     pub outputs: Vec<&'a str>,
     pub weighting: &'static str,
-    pub indices: Option<&'a [PlainIndexRecord]>,
-    pub noise: Option<&'a PlainIndexRecord>,
+    pub indices: Option<&'a [Named<IndexPair<Estimate>>]>,
+    pub noise: Option<&'a Named<IndexPair<Estimate>>>,
     pub reason: Option<&'a str>,
 }
 
@@ -121,7 +122,7 @@ impl<'a> OutputView<'a> {
     }
 
     /// Returns the indices of all of its outputs together, if there are any.
-    pub fn together_indices(&self) -> &'a [PlainIndexRecord] {
+    pub fn together_indices(&self) -> &'a [Named<IndexPair<Estimate>>] {
         self.together.as_ref().and_then(|together| together.indices).unwrap_or_default()
     }
 
@@ -136,7 +137,7 @@ pub(crate) type IndexOf = fn(&EffectEstimates) -> Estimate;
 
 /// Iterates over the names and indices of the factors of an output, or of its groups in their place.
 pub(crate) fn effects(output: &OutputResult) -> impl Iterator<Item = (&str, &EffectEstimates)> + Clone {
-    output.indices.iter().flatten().map(|index| (index.factor.as_str(), &index.effect))
+    output.indices.iter().flatten().map(|index| (index.name.as_str(), &index.effect))
 }
 
 /// Returns the indices of the factor at this position in the study.

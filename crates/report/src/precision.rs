@@ -33,7 +33,7 @@ pub(super) fn widest_interval(view: &OutputView<'_>) -> Option<f64> {
     let widest = view.all_outputs().filter_map(widest_of).reduce(f64::max)?;
     let series = view.series.iter().flat_map(|series| series.indices.iter().flatten());
     let together = view.together_indices().iter().chain(series);
-    let together = together.flat_map(|index| [index.first_order, index.total]);
+    let together = together.flat_map(|index| [index.effect.first_order, index.effect.total]);
     Some(together.filter_map(|index| PrintedEstimate::new(index).half_width()).fold(widest, f64::max))
 }
 

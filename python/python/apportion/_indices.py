@@ -234,17 +234,14 @@ class OutputResult(Shown):
         if kind not in ("first_order", "total"):
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
         records = (self.record.get("noise") or {}).get("of_mean", [])
-        return Indices({record["name"]: Index.of(record[kind]) for record in records if record[kind] is not None})
+        return Indices({record["factor"]: Index.of(record[kind]) for record in records if record[kind] is not None})
 
     def _indices(self, of: str, kind: str) -> Indices:
         if kind not in ("first_order", "total"):
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
-        name = {"indices": "factor", "groups": "group", "subsets": "factors"}[of]
-        entries = {}
-        for record in self.record[of] or []:
-            key = record.get(name, record.get("name"))
-            entries[tuple(key) if isinstance(key, list) else key] = Index.of(record[kind])
-        return Indices(entries)
+        records = self.record[of] or []
+        names = [tuple(record["factors"]) if of == "subsets" else record["factor"] for record in records]
+        return Indices(dict(zip(names, (Index.of(record[kind]) for record in records))))
 
     def to_frame(self) -> Any:
         """A row per factor, as a `pandas.DataFrame`."""

@@ -21,7 +21,7 @@ pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
         let is_first = result.outputs[..place].iter().all(|other| other.name != *name);
         require(is_first, format!("{key}.name"), &format!("the output {name:?} is listed twice"))?;
         if let Some(indices) = &output.indices {
-            of_factors(&key, result, indices.iter().map(|index| &index.factor))?;
+            of_factors(&key, result, indices.iter().map(|index| &index.name))?;
         }
     }
     result.series.iter().enumerate().try_for_each(|(place, of)| series(&format!("series[{place}]"), result, of))
@@ -35,7 +35,7 @@ fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), 
     let rise = !positions.is_empty() && positions.windows(2).all(|pair| pair[0] < pair[1]);
     let problem = "expected rising numbers, one for each output from number `first_output` on";
     require(are_outputs && rise, format!("{key}.positions"), problem)?;
-    series.indices.iter().try_for_each(|all| of_factors(key, result, all.iter().map(|index| &index.factor)))
+    series.indices.iter().try_for_each(|all| of_factors(key, result, all.iter().map(|index| &index.name)))
 }
 
 /// Checks that there is an index for each factor.

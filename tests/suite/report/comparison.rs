@@ -83,7 +83,7 @@ fn results_that_cannot_be_compared_are_refused_with_the_reason() {
     let mut b = a.clone();
     for (factor, index) in b.factors.iter_mut().zip(b.outputs[0].indices.as_mut().unwrap()) {
         factor.name.insert(0, 'z');
-        index.factor.insert(0, 'z');
+        index.name.insert(0, 'z');
     }
     assert_eq!(compared(&a, &b).unwrap_err(), nothing("factor", "x1, x2", "zx1, zx2"));
 }

@@ -97,7 +97,7 @@ impl OrderVerdict<'_> {
 
 /// Compares the order of a study's factors by total shares with the published one.
 pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
-    let shares = indices(member).iter().filter_map(|index| Some((&*index.factor, index.effect.total_percent()?)));
+    let shares = indices(member).iter().filter_map(|index| Some((&*index.name, index.effect.total_percent()?)));
     order_verdict(shares.collect(), published(member.group.key, member.friction.key).ranking)
 }
 
@@ -106,7 +106,7 @@ pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
 pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, OrderCheck)> {
     let groups = member.result.outputs.first()?.groups.as_ref()?;
     let [dimensional, environmental] = ["dimensional", "environmental"]
-        .map(|name| groups.iter().find(|group| group.group == name).map(|group| group.effect.total));
+        .map(|name| groups.iter().find(|group| group.name == name).map(|group| group.effect.total));
     let (dimensional, environmental) = (dimensional?, environmental?);
     Some((dimensional, environmental, check_order(in_percent(dimensional), in_percent(environmental))))
 }

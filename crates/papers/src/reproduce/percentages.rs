@@ -58,7 +58,7 @@ impl StudyShares {
     fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Self {
         let indices = output.indices.iter().flatten();
         // The design does not depend on the user: with it every output of these studies has shares.
-        let shares = indices.map(|i| (i.factor.clone(), share(&i.effect).expect("a study with shares")));
+        let shares = indices.map(|i| (i.name.clone(), share(&i.effect).expect("a study with shares")));
         let shares: Vec<(String, f64)> = shares.collect();
         let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
         Self { group, shares, distance }

@@ -1,7 +1,8 @@
 //! Our shares with the published ones: as one table, for the page, for a terminal and as CSV; and as charts.
 
+use apportion::EffectEstimates;
 use apportion::Estimate;
-use apportion::result::IndexRecord;
+use apportion::result::Named;
 use apportion_base::text::listed;
 use apportion_report::chart::{Chart, Series};
 use apportion_report::document::Table;
@@ -13,12 +14,12 @@ use super::studies::Reproduced;
 use super::words::percent;
 
 /// Returns the indices of a study's factors.
-pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
+pub(super) fn indices(study: &Reproduced) -> &[Named<EffectEstimates>] {
     study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default()
 }
 
 /// Returns the indices of a study's factors with their positions in [`indices`], the largest total share first.
-pub(super) fn ranked(study: &Reproduced) -> Vec<(usize, &IndexRecord)> {
+pub(super) fn ranked(study: &Reproduced) -> Vec<(usize, &Named<EffectEstimates>)> {
     let shares = indices(study).iter().enumerate().filter_map(|place| Some((place.1.effect.share_total?, place)));
     let mut shares: Vec<_> = shares.filter(|(share, _)| !share.is_nan()).collect();
     shares.sort_by(|(a, _), (b, _)| b.total_cmp(a));
@@ -36,7 +37,7 @@ pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
         // Only the first row of a study names it.
         let first = ranked.first().map(|(place, _)| *place);
         for (place, index) in indices(study).iter().enumerate() {
-            rows.push((*study, index, first == Some(place), print.share(&index.factor)));
+            rows.push((*study, index, first == Some(place), print.share(&index.name)));
         }
     }
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
@@ -46,8 +47,8 @@ pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
         .value("study", |(study, ..)| study.group.key)
         .text("friction", |(study, _, is_first, _)| if is_first { study.friction.name } else { "" })
         .value("friction", |(study, ..)| study.friction.key)
-        .text("factor", |(_, index, ..)| words(&index.factor))
-        .value("factor", |(_, index, ..)| &index.factor)
+        .text("factor", |(_, index, ..)| words(&index.name))
+        .value("factor", |(_, index, ..)| &index.name)
         .number("S_1", |(_, index, ..)| index.effect.first_order)
         .number("S_T", |(_, index, ..)| index.effect.total)
         .number("% of S_1", |(_, index, ..)| one_decimal(index.effect.first_order_percent()))
@@ -88,7 +89,7 @@ fn caption(group: &str, members: &[&Reproduced]) -> String {
     let (mut leaders, mut printed) = (Vec::new(), String::new());
     for member in members {
         let name = member.friction.name;
-        if let Some((_, IndexRecord { factor, effect })) = ranked(member).first() {
+        if let Some((_, Named { name: factor, effect, .. })) = ranked(member).first() {
             leaders.push(format!("{} under {name} friction ({})", words(factor), percent(effect.total.estimate)));
         }
         let shares = published(group, member.friction.key).shares.iter();

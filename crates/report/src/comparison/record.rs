@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use apportion::result::{FactorDistribution, FactorRecord, GroupRecord, OutputResult, StudyResult};
+use apportion::result::{FactorDistribution, FactorRecord, Named, OutputResult, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
 use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
@@ -267,9 +267,9 @@ fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<Comp
         let [a, b] = [a, b].map(|output| effects(output).find(|(factor, _)| factor == name).map(|(_, effect)| *effect));
         factors.push(compared_factor(name, false, a, b));
     }
-    for GroupRecord { group, effect, .. } in a.groups.iter().flatten() {
-        let other = b.groups.iter().flatten().find(|other| other.group == *group);
-        factors.extend(other.map(|other| compared_factor(group, true, Some(*effect), Some(other.effect))));
+    for Named { name, effect, .. } in a.groups.iter().flatten() {
+        let other = b.groups.iter().flatten().find(|other| other.name == *name);
+        factors.extend(other.map(|other| compared_factor(name, true, Some(*effect), Some(other.effect))));
     }
     Ok(ComparedOutput {
         name: a.name.clone(),

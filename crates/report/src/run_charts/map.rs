@@ -1,6 +1,7 @@
 //! Overview of many outputs: a map of factors and outputs, the bars of all outputs together, and a series along its axis.
 
-use apportion::result::{OutputResult, PlainIndexRecord, SeriesRecord};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, SeriesRecord};
 use apportion::uncertainty::Estimate;
 
 use crate::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
@@ -60,8 +61,8 @@ pub(crate) fn overall_order(view: &OutputView<'_>) -> Vec<usize> {
     let together = view.together_indices();
     let mut keys = Vec::new();
     for (factor, name) in view.factors.iter().enumerate() {
-        keys.push(match together.iter().find(|index| index.factor == *name) {
-            Some(index) => index.total.estimate,
+        keys.push(match together.iter().find(|index| index.name == *name) {
+            Some(index) => index.effect.total.estimate,
             None => view.outputs.iter().filter_map(|output| Some(effect_at(output, factor)?.total.estimate)).sum(),
         });
     }
@@ -97,10 +98,10 @@ pub(super) fn short(index: f64) -> String {
 /// factors, the first 20.
 pub(crate) fn together_chart(view: &OutputView<'_>) -> Chart {
     let names = &view.factors;
-    let indices: Vec<Option<&PlainIndexRecord>> =
-        names.iter().map(|name| view.together_indices().iter().find(|index| index.factor == *name)).collect();
-    let first_order = indices.iter().map(|index| index.map(|index| index.first_order)).collect();
-    let total: Vec<Option<Estimate>> = indices.iter().map(|index| index.map(|index| index.total)).collect();
+    let indices: Vec<Option<&Named<IndexPair<Estimate>>>> =
+        names.iter().map(|name| view.together_indices().iter().find(|index| index.name == *name)).collect();
+    let first_order = indices.iter().map(|index| index.map(|index| index.effect.first_order)).collect();
+    let total: Vec<Option<Estimate>> = indices.iter().map(|index| index.map(|index| index.effect.total)).collect();
     let keys: Vec<f64> = total.iter().map(|total| total.map_or(f64::NEG_INFINITY, |total| total.estimate)).collect();
     let panel = pair_panel(names.iter().map(|of| name(of)).collect(), first_order, total, &keys);
     let caption = match view.together.as_ref().filter(|together| together.indices.is_some()) {

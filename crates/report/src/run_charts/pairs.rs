@@ -1,6 +1,7 @@
 //! The indices: first order with total, second order as a map of pairs, and their convergence during the run.
 
-use apportion::result::{OutputResult, PlainIndexRecord, StageRecord, StudyResult};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, StageRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
 
 use super::map::{class, series, short};
@@ -29,7 +30,7 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
             let (value, may_be_nothing) = match row == column {
                 true => (below.effect.first_order, below.effect.first_order.interval.is_some_and(|i| i.low <= 0.0)),
                 false => {
-                    let Some((place, value)) = pair(output, [&below.factor, &left.factor]) else { continue };
+                    let Some((place, value)) = pair(output, [&below.name, &left.name]) else { continue };
                     (value, value.interval.is_some() && !sure[place])
                 }
             };
@@ -43,7 +44,7 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
         let series = if class == 0 { Series::new(NOTHING, Colour::Shade(0)) } else { series(Some(class)) };
         series.mark(Shape::Tile(tile))
     });
-    let names = factors.iter().zip(1..).map(|((_, index), number)| format!("{} ({number})", name(&index.factor)));
+    let names = factors.iter().zip(1..).map(|((_, index), number)| format!("{} ({number})", name(&index.name)));
     let rows = Axis::from_names("", names.collect());
     let columns =
         Axis::from_names("the factors by their numbers", (1..=factors.len()).map(|n| n.to_string()).collect());
@@ -118,24 +119,25 @@ pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
 /// Returns the series of the factor at `place` among the drawn ones.
 fn line_series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
     let index = stages.first().and_then(|stage| stage.indices.get(factor));
-    let name = index.map_or_else(String::new, |index| self::name(&index.factor));
+    let name = index.map_or_else(String::new, |index| self::name(&index.name));
     Series::new(name, Colour::Series(place)).stroke(Stroke::SolidWithPoints)
 }
 
 /// Iterates over the number of runs and the index of `factor` at every stage.
-fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> + Clone {
+fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &Named<IndexPair<Estimate>>)> + Clone {
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
 
 fn total_lines(stages: &[StageRecord], place: usize, factor: usize) -> [Mark; 2] {
     let series = line_series(stages, place, factor);
-    let steps = steps(stages, factor).map(|(runs, index)| (runs, index.total));
+    let steps = steps(stages, factor).map(|(runs, index)| (runs, index.effect.total));
     let band = steps.clone().filter_map(|(runs, total)| total.interval.map(|i| (runs, i.low, i.high))).collect();
     [series.band(band), series.line(steps.map(|(runs, total)| (runs, total.estimate)).collect())]
 }
 
 fn width_line(stages: &[StageRecord], place: usize, factor: usize) -> Mark {
-    let widths = steps(stages, factor).filter_map(|(runs, index)| Some((runs, index.total.interval?.width() / 2.0)));
+    let widths =
+        steps(stages, factor).filter_map(|(runs, index)| Some((runs, index.effect.total.interval?.width() / 2.0)));
     line_series(stages, place, factor).line(widths.collect())
 }
 

@@ -1,6 +1,7 @@
 //! The topics of the document on one output.
 
-use apportion::result::{OtherIndexRecord, OutputResult, StudyResult, SurrogateTrial};
+use apportion::effect::IndexPair;
+use apportion::result::{Named, OutputResult, StudyResult, SurrogateTrial};
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_base::text::listed;
 
@@ -157,7 +158,7 @@ impl Topics<'_> {
             let rest = percent(complement(noise.effect.total));
             text.push_str(&format!(" The mean over the noise has {rest}: its indices refer to that variance only."));
         }
-        if noise.of_mean.iter().all(|of_mean| of_mean.total.is_none()) {
+        if noise.of_mean.iter().all(|of_mean| of_mean.effect.total.is_none()) {
             text.push_str(" Its total indices need one more run for each factor: `mean_totals = true` in [noise].");
         }
         let mut parts = vec![Part::Text(text)];
@@ -300,14 +301,14 @@ fn range(output: &OutputResult) -> String {
 }
 
 /// Tabulates the first-order indices of the values next to the indices of the mean over the noise.
-fn noise_table(output: &OutputResult, of_mean: &[OtherIndexRecord]) -> Table {
+fn noise_table(output: &OutputResult, of_mean: &[Named<IndexPair<Option<Estimate>>>]) -> Table {
     let order = by_total(output).unwrap_or_default().into_iter();
-    let rows = order.map(|(_, index)| (index, of_mean.iter().find(|of_mean| of_mean.name == index.factor)));
+    let rows = order.map(|(_, index)| (index, of_mean.iter().find(|of_mean| of_mean.name == index.name)));
     Table::from_rows("Indices of the values and of the mean over the noise, each of its own variance.", rows)
-        .text("factor", |(index, _)| name(&index.factor))
+        .text("factor", |(index, _)| name(&index.name))
         .number("S_1 of a value", |(index, _)| index.effect.first_order)
-        .number("S_1 of the mean", |(_, of_mean)| of_mean.and_then(|of_mean| of_mean.first_order))
-        .number("S_T of the mean", |(_, of_mean)| of_mean.and_then(|of_mean| of_mean.total))
+        .number("S_1 of the mean", |(_, of_mean)| of_mean.and_then(|of_mean| of_mean.effect.first_order))
+        .number("S_T of the mean", |(_, of_mean)| of_mean.and_then(|of_mean| of_mean.effect.total))
         .first(FACTORS, "factors, all in the JSON file")
         .into()
 }

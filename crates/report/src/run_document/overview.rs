@@ -1,6 +1,7 @@
 //! The document on many outputs: an overview, and a table of every output.
 
-use apportion::result::PlainIndexRecord;
+use apportion::effect::IndexPair;
+use apportion::result::Named;
 use apportion::uncertainty::Estimate;
 
 use super::parts::{definitions, failed_runs, figure, grouped_warnings};
@@ -46,7 +47,7 @@ fn overview(view: &OutputView<'_>) -> Vec<Part> {
 #[derive(Clone, Copy)]
 struct FactorRow<'a> {
     factor: &'a str,
-    together: Option<&'a PlainIndexRecord>,
+    together: Option<&'a Named<IndexPair<Estimate>>>,
     leads: usize,
     median: Option<Estimate>,
     largest: Option<(Estimate, &'a str)>,
@@ -61,7 +62,7 @@ impl<'a> FactorRow<'a> {
         totals.sort_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate));
         Self {
             factor,
-            together: view.together_indices().iter().find(|index| index.factor == factor),
+            together: view.together_indices().iter().find(|index| index.name == factor),
             leads,
             median: totals.get(totals.len() / 2).map(|(total, _)| *total),
             largest: totals.last().copied(),
@@ -75,8 +76,8 @@ pub(super) fn factors(view: &OutputView<'_>, caption: &str) -> Table {
     let order = overall_order(view).into_iter();
     Table::from_rows(caption, order.map(|factor| FactorRow::new(view, factor, leads[factor])))
         .text("factor", |row| name(row.factor))
-        .number("S_1 together", |row| row.together.map(|together| together.first_order))
-        .number("S_T together", |row| row.together.map(|together| together.total))
+        .number("S_1 together", |row| row.together.map(|together| together.effect.first_order))
+        .number("S_T together", |row| row.together.map(|together| together.effect.total))
         .number("first of", |row| row.leads.to_string())
         .number("median S_T", |row| or_dash(row.median, |median| short(median.estimate)))
         .number("largest S_T", |row| row.largest.map(|(total, _)| total))

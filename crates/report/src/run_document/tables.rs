@@ -1,11 +1,9 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
 use apportion::analysis::MIN_OUTPUTS_TOGETHER;
+use apportion::effect::IndexPair;
 use apportion::given::Measure;
-use apportion::result::{
-    EstimatorRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, RunMeasures, StudyResult,
-    SurrogateRecord,
-};
+use apportion::result::{EstimatorRecord, Named, OutputResult, PairRecord, RunMeasures, StudyResult, SurrogateRecord};
 use apportion::surrogate::NamedTerm;
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
@@ -42,9 +40,9 @@ impl<'a> Line<'a> {
     }
 
     /// Creates a line of indices over several outputs together.
-    fn plain(label: String, index: &PlainIndexRecord) -> Self {
-        let PlainIndexRecord { ref factor, first_order, total } = *index;
-        Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None }
+    fn plain(label: String, index: &Named<IndexPair<Estimate>>) -> Self {
+        let IndexPair { first_order, total } = index.effect;
+        Self { kind: "aggregate", label, name: index.name.clone(), first_order, total, effect: None }
     }
 
     fn get<T>(&self, of: fn(&EffectEstimates) -> Option<T>) -> Option<T> {
@@ -179,8 +177,8 @@ fn pairs_csv(result: &StudyResult) -> String {
 /// Tabulates joint indices of groups of factors.
 pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let lines = output.groups.iter().flatten().map(|group| {
-        let label = format!("{}: {}", name(&group.group), joined(&group.factors));
-        Line::new("group", label, &group.group, &group.effect)
+        let label = format!("{}: {}", name(&group.name), joined(&group.factors));
+        Line::new("group", label, &group.name, &group.effect)
     });
     let caption = "Joint indices of groups of the factors: S_1 includes the interactions inside them.";
     joint(result, output, caption, lines.collect())
@@ -189,9 +187,8 @@ pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Tabl
 /// Tabulates joint indices of subsets of factors, and those of the dummy factor.
 pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let subsets = output.subsets.iter().flatten();
-    let mut lines: Vec<Line<'_>> = subsets
-        .map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect))
-        .collect();
+    let mut lines: Vec<Line<'_>> =
+        subsets.map(|subset| Line::new("subset", joined(&subset.factors), &subset.name, &subset.effect)).collect();
     let dummy = output.dummy.iter();
     lines.extend(dummy.map(|effect| Line::new("dummy", "dummy, without effect".to_owned(), "dummy", effect)));
     let caption = match output.dummy {
@@ -240,9 +237,9 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
     let tables = [
         (
             "First-order indices S_1 by estimator.",
-            EstimatorColumn { other: |of| of.first_order, default: |of| of.first_order },
+            EstimatorColumn { other: |of| of.effect.first_order, default: |of| of.first_order },
         ),
-        ("Total indices S_T by estimator.", EstimatorColumn { other: |of| of.total, default: |of| of.total }),
+        ("Total indices S_T by estimator.", EstimatorColumn { other: |of| of.effect.total, default: |of| of.total }),
     ];
     tables.into_iter().filter_map(|(caption, column)| estimator_table(output, caption, column)).collect()
 }
@@ -250,7 +247,7 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
 /// Which index a table of estimators shows: of another estimator, and of the default ones.
 #[derive(Clone, Copy)]
 struct EstimatorColumn {
-    other: fn(&OtherIndexRecord) -> Option<Estimate>,
+    other: fn(&Named<IndexPair<Option<Estimate>>>) -> Option<Estimate>,
     default: IndexOf,
 }
 
@@ -262,7 +259,7 @@ fn estimator_table(output: &OutputResult, caption: &str, column: EstimatorColumn
         return None;
     }
     let mut rows = Table::from_rows(caption, order)
-        .text("factor", |(_, index)| name(&index.factor))
+        .text("factor", |(_, index)| name(&index.name))
         .number("default", |(_, index)| (column.default)(&index.effect));
     for record in records {
         rows = rows.number(&record.estimator, |(number, _)| record.indices.get(number).and_then(column.other));
@@ -274,11 +271,11 @@ fn estimator_table(output: &OutputResult, caption: &str, column: EstimatorColumn
 pub(super) fn together(
     result: &StudyResult,
     outputs: &[&str],
-    indices: &[PlainIndexRecord],
-    noise: Option<&PlainIndexRecord>,
+    indices: &[Named<IndexPair<Estimate>>],
+    noise: Option<&Named<IndexPair<Estimate>>>,
 ) -> Table {
-    let mut lines: Vec<Line<'_>> = indices.iter().map(|index| Line::plain(name(&index.factor), index)).collect();
-    lines.extend(noise.map(|noise| Line::plain(of_noise(&noise.factor), noise)));
+    let mut lines: Vec<Line<'_>> = indices.iter().map(|index| Line::plain(name(&index.name), index)).collect();
+    lines.extend(noise.map(|noise| Line::plain(of_noise(&noise.name), noise)));
     let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match outputs.len() {
@@ -298,8 +295,8 @@ fn estimators_csv(result: &StudyResult) -> String {
         .file("output", |(output, ..)| &output.name)
         .file("estimator", |(_, record, _)| &record.estimator)
         .file("name", |(.., index)| &index.name)
-        .file_estimate("first_order", |(.., index)| index.first_order)
-        .file_estimate("total", |(.., index)| index.total)
+        .file_estimate("first_order", |(.., index)| index.effect.first_order)
+        .file_estimate("total", |(.., index)| index.effect.total)
         .csv()
 }
 
@@ -311,9 +308,9 @@ fn convergence_csv(result: &StudyResult) -> String {
         .file("output", |(output, ..)| &output.name)
         .file("base_samples", |(_, stage, _)| stage.base_samples)
         .file("model_runs", |(_, stage, _)| stage.model_runs)
-        .file("factor", |(.., index)| &index.factor)
-        .file_estimate("first_order", |(.., index)| Some(index.first_order))
-        .file_estimate("total", |(.., index)| Some(index.total))
+        .file("factor", |(.., index)| &index.name)
+        .file_estimate("first_order", |(.., index)| Some(index.effect.first_order))
+        .file_estimate("total", |(.., index)| Some(index.effect.total))
         .csv()
 }
 
@@ -384,11 +381,11 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
     if let Some(order) = by_total(output) {
         let rows = order.into_iter().map(|(number, index)| (index, record.plain.get(number)));
         let table = Table::from_rows("Indices with and without the surrogate.", rows)
-            .text("factor", |(index, _)| name(&index.factor))
+            .text("factor", |(index, _)| name(&index.name))
             .number("S_1", |(index, _)| index.effect.first_order)
-            .number("S_1 plain", |(_, plain)| plain.and_then(|plain| plain.first_order))
+            .number("S_1 plain", |(_, plain)| plain.and_then(|plain| plain.effect.first_order))
             .number("S_T", |(index, _)| index.effect.total)
-            .number("S_T plain", |(_, plain)| plain.and_then(|plain| plain.total));
+            .number("S_T plain", |(_, plain)| plain.and_then(|plain| plain.effect.total));
         parts.push(table.first(FACTORS_OF_ESTIMATORS, "factors").into());
     }
     parts

@@ -1,7 +1,8 @@
 //! Claims about the shares of the variance: 17 to 20. They depend on the nine studies.
 
 use anyhow::anyhow;
-use apportion::result::IndexRecord;
+use apportion::EffectEstimates;
+use apportion::result::Named;
 use apportion_afm::{Failure, FrictionLaw, Scene};
 use apportion_report::{fixed, give_or_take, share};
 
@@ -30,7 +31,7 @@ fn study<'a>(
     context: &ClaimContext<'a>,
     group: &'static str,
     friction: Friction,
-) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
+) -> anyhow::Result<(&'a Reproduced, &'a [Named<EffectEstimates>])> {
     let study = context.studies.iter().find(|study| study.group.key == group && study.friction == friction);
     let with_indices = study.and_then(|study| Some((study, study.result.outputs.first()?.indices.as_deref()?)));
     with_indices.ok_or_else(|| no_indices(group, friction))
@@ -41,7 +42,10 @@ fn no_indices(group: &str, friction: Friction) -> anyhow::Error {
 }
 
 /// Returns the study of a group whose percentages are printed, with its indices.
-fn printed<'a>(context: &ClaimContext<'a>, group: &'static str) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
+fn printed<'a>(
+    context: &ClaimContext<'a>,
+    group: &'static str,
+) -> anyhow::Result<(&'a Reproduced, &'a [Named<EffectEstimates>])> {
     study(context, group, FRICTIONS.into_iter().find(|friction| friction.key == PRINTED).expect("a friction model"))
 }
 
@@ -100,10 +104,10 @@ fn verdict_of_order(order: &OrderVerdict<'_>) -> String {
 }
 
 /// Lists the visible total shares with their intervals, the largest first, those by first order in parentheses.
-fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String {
+fn shares_in_words(indices: &[Named<EffectEstimates>], order: &OrderVerdict<'_>) -> String {
     let mut visible = Vec::new();
     for name in &order.ours {
-        for IndexRecord { factor, effect } in indices.iter().filter(|index| index.factor == *name) {
+        for Named { name: factor, effect, .. } in indices.iter().filter(|index| index.name == *name) {
             let first = effect.share_first_order.map_or_else(|| "-".to_owned(), |share| fixed(share, 1));
             visible.push(format!("{} {} % ({first} %)", factor.replace('_', " "), share(effect.total_percent())));
         }
@@ -125,7 +129,7 @@ pub(super) fn printed_percentages(
     let (_, indices) = printed(context, group)?;
     let (mut by_first_order, mut by_total, mut shares) = (true, true, Vec::new());
     for (factor, percent) in published(group, PRINTED).shares {
-        let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
+        let effect = indices.iter().find(|index| index.name == *factor).map(|index| index.effect);
         let first_order = effect.and_then(|effect| effect.share_first_order).unwrap_or(f64::NAN);
         let total = effect.and_then(|effect| effect.share_total).unwrap_or(f64::NAN);
         by_first_order &= (first_order - percent).abs() <= CLOSE;

@@ -145,14 +145,14 @@ fn other_shares_give_other_verdicts() {
     let mut unsure = NINE_STUDIES.clone();
     for (swapped, unsure) in swapped.iter_mut().zip(&mut unsure) {
         for index in swapped.result.outputs[0].indices.as_mut().unwrap() {
-            index.factor = match index.factor.as_str() {
+            index.name = match index.name.as_str() {
                 "thickness" => "length".to_owned(),
                 "length" => "thickness".to_owned(),
                 other => other.to_owned(),
             };
         }
         for group in swapped.result.outputs[0].groups.iter_mut().flatten() {
-            group.group = if group.group == "dimensional" { "environmental" } else { "dimensional" }.to_owned();
+            group.name = if group.name == "dimensional" { "environmental" } else { "dimensional" }.to_owned();
         }
         for index in unsure.result.outputs[0].indices.as_mut().unwrap() {
             index.effect.share_total_interval = None;

@@ -1,7 +1,7 @@
 //! The summary: which factor leads in each study, with which certainty, and the order of the rest.
 
 use apportion::EffectEstimates;
-use apportion::result::IndexRecord;
+use apportion::result::Named;
 use apportion_base::text::{capitalised, listed};
 use apportion_report::document::{Cell, Mark, OnPhone, Part, Table};
 use apportion_report::format::{chance, words};
@@ -41,10 +41,10 @@ fn table(studies: &[Reproduced]) -> Part {
 
 fn leader(study: &Reproduced) -> Cell {
     let mut ranked = ranked(study).into_iter().map(|(_, index)| index);
-    let Some(IndexRecord { factor, effect }) = ranked.next() else { return "no indices".into() };
+    let Some(Named { name: factor, effect, .. }) = ranked.next() else { return "no indices".into() };
     let others = ranked.filter(|index| index.effect.share_total.is_some_and(|share| share >= VISIBLE));
     let others: Vec<String> =
-        others.map(|index| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate))).collect();
+        others.map(|index| format!("{} ({})", words(&index.name), percent(index.effect.total.estimate))).collect();
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
     let (alone, together) = explained(effect);
     let certainty = match effect.probability_first {
@@ -76,7 +76,7 @@ fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
 pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
     let general = studies.iter().filter(|study| study.group == GROUPS[2]);
     let leaders = general.filter_map(|study| {
-        let (_, IndexRecord { factor, effect }) = *ranked(study).first()?;
+        let (_, Named { name: factor, effect, .. }) = *ranked(study).first()?;
         Some(((factor, explained(effect)), study.friction.name))
     });
     let mut statements = Vec::new();
