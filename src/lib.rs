@@ -54,9 +54,9 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod analysis;
-pub mod correction;
+mod correction;
 pub mod design;
-pub mod effect;
+mod effect;
 pub mod estimate;
 pub mod given;
 pub mod model;
@@ -67,13 +67,14 @@ pub mod salib;
 pub mod screening;
 pub mod space;
 pub mod study;
-pub mod surrogate;
+mod surrogate;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use apportion_base::quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
+pub use apportion_base::quantity::{Unit, UnitError};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
-pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
+pub use correction::{LowFidelityUse, NamedTerm};
+pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
     GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,

@@ -20,13 +20,14 @@ mod sobol;
 
 use std::collections::BTreeSet;
 
-pub use base::BasePoints;
+pub(crate) use base::BasePoints;
 pub use error::DesignError;
 use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
 use rows::Runs;
-pub use rows::{Matrix, RowKind, Rows, Run, Swap};
+pub use rows::{Matrix, RowKind, Rows, Run};
+pub(crate) use rows::Swap;
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
 

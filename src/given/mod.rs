@@ -17,7 +17,8 @@ mod rank;
 mod repeats;
 mod surrogate;
 
-pub use binned::{Binned, bins_for};
+pub(crate) use binned::Binned;
+pub use binned::bins_for;
 pub(crate) use column::centred;
 pub use column::{Column, NoVariance, TextColumn};
 pub use dependence::{Dependence, PairDependence};

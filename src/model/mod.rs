@@ -21,7 +21,7 @@ pub use counter::{Counter, CounterKind, Counts, EVALUATIONS, LARGEST_ERROR, RUNG
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use function::{FunctionModel, function_model};
 pub use known::{
-    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
+    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, ParameterError, ParameterInfo,
     ParameterValue, known_inputs, known_model, known_output,
 };
 pub use repeated::RepeatedModel;
