@@ -53,7 +53,7 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-pub mod analysis;
+mod analysis;
 mod correction;
 pub mod design;
 mod effect;
@@ -72,8 +72,8 @@ pub mod sweep;
 pub mod uncertainty;
 
 pub use apportion_base::quantity::{Unit, UnitError};
-pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use correction::{LowFidelityUse, NamedTerm};
+pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,

@@ -6,7 +6,7 @@ use super::influenced::EstimateWithInfluences;
 use super::mean::{Corrected, correct_mean};
 use super::surrogate_use::{Refusal, SurrogateUse};
 use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, OfPair, Quantities};
-use crate::uncertainty::{Estimate, Interval, Judgement, difference};
+use crate::uncertainty::{Estimate, Interval, Judgement};
 
 /// Distance of plain and corrected indices, relative to their intervals, above which the corrected ones are refused: of
 /// one index, and the root mean square over those of one kind. For smooth functions, where the corrected ones are
@@ -154,9 +154,11 @@ impl Corrected<'_> {
                 return Some(total.error.even().judgement(&EstimateWithInfluences::combined(&terms)));
             }
             (Some(first_order), None) => {
-                difference(first_order.error.estimate(&first_order.list[at]), plain.total.estimate)
+                Estimate::difference(first_order.error.estimate(&first_order.list[at]), plain.total.estimate)
             }
-            (None, Some(total)) => difference(plain.first_order.estimate, total.error.estimate(&total.list[at])),
+            (None, Some(total)) => {
+                Estimate::difference(plain.first_order.estimate, total.error.estimate(&total.list[at]))
+            }
             (None, None) => return None,
         };
         Some(Judgement::new(estimate, plain.interaction.error, Vec::new()))

@@ -26,13 +26,10 @@ use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
 use rows::Runs;
-pub use rows::{Matrix, RowKind, Rows, Run};
 pub(crate) use rows::Swap;
+pub use rows::{Matrix, RowKind, Rows, Run};
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
-
-/// Maximum number of base points in a replicate: the length of the 32-bit Sobol' sequence.
-pub const MAX_POINTS: u64 = 1 << 32;
 
 /// Maximum number of replicates of a design.
 const MAX_REPLICATES: u64 = 4096;
@@ -46,9 +43,6 @@ pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
 /// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
 /// 60 dimensions is correlated by more than 0.1.
 const MAX_CORRELATED_POINTS: u64 = 1 << 10;
-
-/// Maximum number of factors of a design, for any sampler: every base point costs a run for each of them.
-pub const MAX_FACTORS: usize = 10_000;
 
 /// A checked Saltelli design.
 ///
@@ -74,6 +68,12 @@ pub struct Design {
 }
 
 impl Design {
+    /// Maximum number of base points in a replicate: the length of the 32-bit Sobol' sequence.
+    pub const MAX_POINTS: u64 = 1 << 32;
+
+    /// Maximum number of factors of a design, for any sampler: every base point costs a run for each of them.
+    pub const MAX_FACTORS: usize = 10_000;
+
     /// Creates a design over `factors` factors with `rows` (column numbers below `factors`) in addition to A and B.
     ///
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
@@ -86,10 +86,10 @@ impl Design {
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         let points = base_samples.div_ceil(replicates.max(1));
-        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS;
+        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > Design::MAX_POINTS;
         refuse([
             (factors == 0, DesignError::NoFactors),
-            (factors > MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
+            (factors > Design::MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
             (sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2, DesignError::TooManyFactors { factors }),
             (rows.plain_rows > MAX_PLAIN_ROWS, DesignError::TooManyPlainRows { plain_rows: rows.plain_rows }),
             (replicates == 0, DesignError::NoReplicates),
@@ -144,7 +144,7 @@ impl Design {
 
     /// Returns the longest design that a run of this one can grow into.
     pub(crate) fn longest(&self) -> Self {
-        let mut points = MAX_POINTS;
+        let mut points = Design::MAX_POINTS;
         loop {
             match self.with_points(points) {
                 Ok(longest) => return longest,

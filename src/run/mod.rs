@@ -54,14 +54,14 @@ use crate::space::Space;
 use apportion_base::names::named;
 
 /// Base points in a block: their columns fit in the cache, and a block takes long enough to be worth a task.
-pub const BLOCK: u64 = 256;
+pub(crate) const BLOCK: u64 = 256;
 
 /// How long to wait for remote workers between two checks for a stop.
 const STOP_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// The work of a run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// The rows in the unit cube.
     pub design: &'a Design,
     /// The distributions that map them to SI units; as many factors as the design.
@@ -86,7 +86,7 @@ pub struct Progress {
 }
 
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
-pub const MAX_STORED_BYTES: u64 = 8 << 30;
+pub(crate) const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Runs all rows of the job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
@@ -97,7 +97,11 @@ pub const MAX_STORED_BYTES: u64 = 8 << 30;
 ///
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
-pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
+pub(crate) fn run(
+    job: Job<'_>,
+    threads: usize,
+    on_progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Totals>, RunError> {
     let context = RunContext::default();
     let mut run = GrowingRun::new(job, &context, threads)?;
     run.grow_to(job.design.points_per_replicate(), on_progress)?;

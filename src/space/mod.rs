@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 pub(crate) use copula::{GaussianCopula, from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
-pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
+pub use distribution::{Distribution, DistributionError};
 
 use serde::{Deserialize, Serialize};
 

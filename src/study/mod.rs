@@ -25,7 +25,6 @@ use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::fewest_points;
-pub use apportion_base::names::nearest;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it. Its methods describe its fields.
 #[derive(Debug, Clone)]
@@ -52,11 +51,6 @@ pub struct StudySource {
     pub overrides: Vec<String>,
     /// Notes on values that were read differently from how they were written, in sentences.
     pub notes: Vec<String>,
-}
-
-/// Returns the end of a message about an unknown name, if a similar one exists; two candidates are joined by "and".
-pub fn did_you_mean(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }
 
 impl Study {

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::analysis::unlikely_outputs;
 use apportion::given::Column;
 use apportion::run::Store;
 use apportion::salib::{SalibError, SalibLayout, SalibProblem, recognise, salib_study};
@@ -98,7 +97,7 @@ fn of_design(arguments: &Arguments) -> anyhow::Result<Read> {
         0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
-    let unlikely = unlikely_outputs(&answers.study, &answers.store);
+    let unlikely = answers.study.unlikely_outputs(&answers.store);
     Ok(Read { study: answers.study, store: answers.store, unlikely })
 }
 

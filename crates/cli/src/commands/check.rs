@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::design::Design;
 use apportion::estimate::{FirstOrder, Total};
 use apportion::model::RunContext;
-use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
+use apportion::run::{FailurePolicy, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, IndicesOf};
 use apportion::study::{Study, Target};
@@ -34,10 +34,7 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let mut pilot = None;
     if !study.subject().is_external() {
-        let model = study.model();
-        let context = RunContext::new(Some(on_signal()), say);
-        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
-        pilot = Some(Pilot::new(job, &context)?);
+        pilot = Some(Pilot::new(&study, &RunContext::new(Some(on_signal()), say))?);
     }
     print(&format!(
         "{}{}{}{}\nwill be written to {}: the page {}.html, tables, charts\n",

@@ -1,6 +1,5 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::correction::NamedTerm;
 use apportion::given::Measure;
 use apportion::result::{
@@ -282,7 +281,7 @@ pub(super) fn together(
     let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
+        ..StudyResult::MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are not series".to_owned(),
     };
