@@ -71,7 +71,7 @@ mod surrogate;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use apportion_base::quantity::{Unit, UnitError};
+pub use apportion_base::quantity::{Unit, UnitError, Unlikely};
 pub use correction::{LowFidelityUse, NamedTerm};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};

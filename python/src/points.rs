@@ -79,8 +79,7 @@ pub fn salib_indices(
     let work = move |_: &Stop| -> Result<_, String> {
         let problem = SalibProblem::of_inputs((0..d).map(|j| format!("x{j}")).collect());
         let outputs = [Column { name: "y".to_owned(), values: y }];
-        let unlikely =
-            apportion_base::quantity::Unlikely::find(&outputs[0].values).map(|found| found.in_table(found.first + 1));
+        let unlikely = apportion::Unlikely::find(&outputs[0].values).map(|found| found.in_table(found.first + 1));
         let problem = problem.map_err(|error| error.to_string())?;
         let made = salib_study("salib", &problem, &outputs, layout, (0, 0));
         let (study, store) = made.map_err(|error| error.to_string())?;

@@ -20,11 +20,11 @@ mod sobol;
 
 use std::collections::BTreeSet;
 
-pub(crate) use base::BasePoints;
+pub use base::BasePoints;
 pub use error::DesignError;
 use joe_kuo::MAX_DIMENSIONS;
-pub use latin::LatinHypercube;
-pub use random::RandomPoints;
+use latin::LatinHypercube;
+use random::RandomPoints;
 use rows::Runs;
 pub(crate) use rows::Swap;
 pub use rows::{Matrix, RowKind, Rows, Run};

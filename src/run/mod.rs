@@ -49,7 +49,7 @@ pub(crate) use totals::SAMPLE;
 pub(crate) use totals::Totals;
 
 use crate::design::Design;
-use crate::model::{Model, RunContext};
+use crate::model::Model;
 use crate::space::Space;
 use apportion_base::names::named;
 
@@ -87,26 +87,6 @@ pub struct Progress {
 
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
 pub(crate) const MAX_STORED_BYTES: u64 = 8 << 30;
-
-/// Runs all rows of the job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
-///
-/// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
-///
-/// # Panics
-/// If the number of factors of the space differs from that of the design.
-///
-/// # Errors
-/// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
-pub(crate) fn run(
-    job: Job<'_>,
-    threads: usize,
-    on_progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Vec<Totals>, RunError> {
-    let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, threads)?;
-    run.grow_to(job.design.points_per_replicate(), on_progress)?;
-    Ok(run.totals)
-}
 
 /// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
 pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {

@@ -122,7 +122,7 @@ fn codes_for_missing_values_are_found() {
     let columns = points(3, 128, SalibLayout::FirstOrder);
     let mut y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + b).collect();
     y.iter_mut().step_by(49).for_each(|y| *y = -9999.0);
-    let found = crate::Unlikely::find(&y).unwrap();
+    let found = apportion_base::quantity::Unlikely::find(&y).unwrap();
     assert_eq!((found.value, found.count, found.first), (-9999.0, 14, 0));
     let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
     assert!(warnings.iter().any(|warning| matches!(warning, Warning::FewRows { .. })), "{warnings:?}");

@@ -23,6 +23,7 @@ pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
+use crate::run::BLOCK;
 use crate::space::Space;
 use crate::surrogate::fewest_points;
 
@@ -236,6 +237,13 @@ impl Study {
                 values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL && has_size
             }
         }
+    }
+
+    /// Returns the bytes that each thread of a run takes: the columns of the factors in a block (unit cube and SI, A and
+    /// B), and of every output of every kind of row.
+    pub fn bytes_per_thread(&self) -> u64 {
+        let outputs = self.model().outputs().len() as u64;
+        (2 * self.design.columns() as u64 + self.design.rows_per_point() * (outputs + 1)) * BLOCK * 8
     }
 
     /// Returns the rows times outputs of a run of `design`, and whether the model is a program, if these determine

@@ -319,11 +319,10 @@ fn stopping(study: &Study) -> Option<String> {
     (!ends.is_empty()).then(|| format!("growth: runs are added, and all are used, until {}", ends.join(", or ")))
 }
 
-/// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind; and outputs that are kept.
+/// The columns of a block, and outputs that are kept.
 fn memory(study: &Study) -> Vec<String> {
     let (design, outputs) = (study.design(), study.model().outputs().len() as u64);
-    let columns = 2 * design.columns() as u64 + design.rows_per_point() * (outputs + 1);
-    let kilobytes = (columns * BLOCK * 8) as f64 / 1e3;
+    let kilobytes = study.bytes_per_thread() as f64 / 1e3;
     let mut lines = vec![format!("memory: about {kilobytes:.0} kB per thread, for any number of samples")];
     if study.needs_outputs() {
         let bytes = design.rows() as f64 * outputs as f64 * 8.0;

@@ -2,7 +2,7 @@
 
 use apportion::estimate::{Estimator, FirstOrder, Total};
 use apportion::model::{Basis, Choice, Exact, Input, KnownAnswer, KnownFunction};
-use apportion::study::nearest;
+use apportion_base::names::nearest;
 use apportion_files::{ModelKind, Problem, model_guide};
 use apportion_report::{significant, table};
 

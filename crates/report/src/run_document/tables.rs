@@ -1,6 +1,6 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
-use apportion::correction::NamedTerm;
+use apportion::NamedTerm;
 use apportion::given::Measure;
 use apportion::result::{
     EstimatorRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, RunMeasures, StudyResult,
