@@ -3,7 +3,7 @@
 //! A design has `replicates` independent randomisations of `base_samples / replicates` base points each. A base point
 //! is one point of a 2d-dimensional sequence: its first d coordinates are the row of A, its last d the row of B. (Two
 //! sequences of d dimensions each would look similar, but the indices then never converge.) Every base point has `2 +
-//! k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B (Saltelli et
+//! k` rows: A, B, and one row AB_s for each of the k `Swap`s, which is A with some columns taken from B (Saltelli et
 //! al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns from A, are
 //! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at separate points,
 //! are used to fit surrogates.

@@ -1,7 +1,7 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`Indices::from_moments`] computes the indices at its end, and
-//! [`FirstOrder`], [`Total`] and [`SecondOrder`] are other formulas on the same sums. Indices are the results of the
+//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`SecondOrder`] are the
+//! formulas on these sums. Indices are the results of the
 //! formulas, never clamped: a first-order index of -0.001 means that 0 is within its error.
 
 mod aggregate;
@@ -68,13 +68,7 @@ pub enum Undefined {
 }
 
 /// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.
-///
-/// ```
-/// use apportion::estimate::shares;
-/// assert_eq!(shares(&[0.3, 0.1]), Some(vec![75.0, 25.0]));
-/// assert_eq!(shares(&[0.0, 0.0]), None);
-/// ```
-pub fn shares(indices: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn shares(indices: &[f64]) -> Option<Vec<f64>> {
     let sum: f64 = indices.iter().sum();
     (sum > 0.0).then(|| indices.iter().map(|x| 100.0 * x / sum).collect())
 }

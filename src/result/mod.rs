@@ -16,7 +16,7 @@ mod warning;
 
 use std::ops::Range;
 
-pub use distribution::{Histogram, OutputDistribution, QuantileRecord, quantile};
+pub use distribution::{Histogram, OutputDistribution, QuantileRecord};
 pub use indices::*;
 use output::find;
 pub use output::*;

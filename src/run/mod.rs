@@ -1,6 +1,6 @@
 //! Running a design through a model: fixed blocks of base points, folded into totals of constant size.
 //!
-//! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends only
+//! A block is 256 base points with all of their rows. Blocks are merged in a binary tree whose shape depends only
 //! on the number of blocks, so the totals have the same bits on any number of threads; memory does not grow with the
 //! number of samples, unless outputs are kept.
 //!

@@ -1,8 +1,8 @@
 //! Confidence intervals of estimates, and quantities derived from them.
 //!
-//! An estimate depends on all runs. [`Influences`] are the influences of each part of them; an [`IntervalMethod`] turns
+//! An estimate depends on all runs. Influences are those of each part of them; an [`IntervalMethod`] turns
 //! these into a standard error: for Sobol' points by the decay of the error in a net, for random points by their batches, or from the
-//! outputs of every point ([`KeptPoints`]) by the delta method or a bootstrap.
+//! outputs of every point by the delta method or a bootstrap.
 
 mod bootstrap;
 mod by_points;

@@ -1,5 +1,6 @@
 //! Comparisons of two results.
 
+use apportion::Estimate;
 use apportion::result::{StudyResult, json};
 use apportion_report::comparison::{
     CompareError, ComparedIndex, ComparisonFile, NamedResult, compare_results, comparison_document,
