@@ -2,20 +2,20 @@
 //!
 //! Analysis: all estimators of first-order, total and second-order indices from stored outputs of 8 factors at 2^16
 //! base points, on one thread, in the blocks of a run. Points: coordinates a second of each sampler, in the blocks of
-//! a run too. Surrogates: one cross-fit.
+//! a run too. Surrogates: runs that fit them.
 
 mod outputs;
 
 use std::hint::black_box;
 
-use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
+use apportion::design::{Design, DesignSettings, Rows, Sampler};
 use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
-use apportion::run::BLOCK;
-use apportion::surrogate::{Caps, Family, Net, cross_fitted};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use outputs::{Outputs, design, function};
 
 const POINTS: u64 = 1 << 16;
+/// Base points of a block, as in a run.
+const BLOCK: u64 = 256;
 
 /// Moments of blocks, merged in the tree of a run.
 fn merged(outputs: &Outputs<'_>, first: u64, blocks: u64, work: &mut Workspace) -> Moments {
@@ -54,33 +54,16 @@ fn analysis(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A sparse expansion for each of four nets, from the polynomials to the coefficients refitted to the others, on one
-/// thread.
+/// A study with surrogates on one thread: above all, a sparse expansion for each of four nets, from the polynomials to the
+/// coefficients refitted to the others.
 fn surrogate(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("surrogate-fits-8-factors-400-terms");
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
-    let function = function("sobol-g");
-    let families = vec![Family::Legendre; 8];
-    let caps = Caps { terms: 400, ..Caps::new(&families, 0) };
+    let mut group = criterion.benchmark_group("surrogates-8-factors");
     for base_samples in [100, 1000] {
-        let settings =
-            |seed| DesignSettings { base_samples: base_samples / 4, replicates: 1, seed, ..Default::default() };
-        let rows = Rows::plain((0..8).map(|j| vec![j]).collect());
-        let designs: Vec<Design> =
-            (0..4).map(|seed| Design::new(settings(seed), 8, rows.clone()).expect("a design")).collect();
-        let outputs: Vec<Vec<Vec<f64>>> = designs.iter().map(|design| Outputs::of(&function, design).runs).collect();
-        let rows = 10 * base_samples;
-        group.throughput(Throughput::Elements(rows));
-        group.bench_function(BenchmarkId::new("rows", rows), |bencher| {
-            bencher.iter(|| {
-                pool.install(|| {
-                    let net = |(design, outputs): (&Design, &Vec<Vec<f64>>)| {
-                        Net::new(design, 0, 0..outputs[0].len(), &families, caps.degree, outputs)
-                    };
-                    let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
-                    cross_fitted(&nets, caps)
-                })
-            });
+        let text = format!("model = \"sobol-g\"\n[design]\nbase_samples = {base_samples}\n");
+        let study = apportion_files::parse_study(&text, "surrogate.toml".as_ref(), &[]).expect("a study");
+        group.throughput(Throughput::Elements(study.design().rows()));
+        group.bench_function(BenchmarkId::new("rows", study.design().rows()), |bencher| {
+            bencher.iter(|| study.runner().threads(1).run().expect("a result"));
         });
     }
     group.finish();
@@ -91,24 +74,19 @@ fn points(criterion: &mut Criterion) {
     for dimensions in [16, 64] {
         let mut columns = vec![vec![0.0; BLOCK as usize]; dimensions];
         group.throughput(Throughput::Elements(BLOCK * dimensions as u64));
-        let sobol = SobolSequence::scrambled(dimensions, 0, 0);
-        let random = RandomPoints::new(dimensions, 0, 0);
-        let latin = LatinHypercube::new(dimensions, POINTS, 0, 0);
-        let mut fill = |name: &str, fill: &dyn Fn(u64, &mut [Vec<f64>])| {
+        for sampler in Sampler::ALL {
+            let settings = DesignSettings { sampler, base_samples: POINTS, replicates: 1, seed: 0 };
+            let design = Design::new(settings, dimensions / 2, Rows::default()).expect("a design");
+            let points = design.replicate(0);
             let mut block = 0;
-            group.bench_function(BenchmarkId::new(name, dimensions), |bencher| {
+            group.bench_function(BenchmarkId::new(sampler.name(), dimensions), |bencher| {
                 bencher.iter(|| {
                     block = (block + 1) % (POINTS / BLOCK);
-                    fill(block * BLOCK, &mut columns);
+                    points.fill(block * BLOCK, &mut columns);
                     black_box(columns[0][0])
                 });
             });
-        };
-        fill("sobol", &|first, columns| {
-            columns.iter_mut().enumerate().for_each(|(dimension, column)| sobol.fill(dimension, first, column));
-        });
-        fill("random", &|first, columns| random.fill(first, columns));
-        fill("latin-hypercube", &|first, columns| latin.fill(first, columns));
+        }
     }
     group.finish();
 }

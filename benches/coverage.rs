@@ -15,11 +15,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use apportion::analysis::{IntervalOptions, output_indices};
-use apportion::effect::Layout;
-use apportion::estimate::MomentParts;
 use apportion::model::KnownAnswer;
-use apportion::run::{Job, run};
 use apportion::uncertainty::IntervalMethod;
 
 const SEEDS: u64 = 100;
@@ -201,26 +197,15 @@ fn sample(
             format!("design.replicates={replicates}"),
             format!("design.seed={seed}"),
             format!("design.sampler={sampler}"),
+            format!("analysis.intervals={}", method.name()),
+            "analysis.surrogate=\"off\"".to_owned(),
+            "analysis.convergence=false".to_owned(),
         ];
         let study = apportion_files::parse_study(&case.text, "coverage.toml".as_ref(), &overrides).expect("a study");
-        let model = study.model();
-        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
-        let totals = run(job, 0, &|_| ()).expect("threads");
-        let parts: Vec<MomentParts> = totals.iter().map(|t| t.outputs[0].moments.clone()).collect();
-        let options = IntervalOptions {
-            method,
-            threshold: 0.05,
-            seed,
-            resamples: 0,
-            points: None,
-            ranks: false,
-            correlations: &job.design.column_correlations(),
-            surrogate: None,
-        };
-        let layout = Layout::plain(case.first.len());
-        let Ok(indices) = output_indices(&parts, &layout, &options) else { return Vec::new() };
-        let factors = indices.effects.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
-        let both = factors.flat_map(|(of, _)| [of.estimates.first_order, of.estimates.total]);
+        let result = study.run().expect("a result");
+        let Some(indices) = &result.outputs[0].indices else { return Vec::new() };
+        let factors = indices.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
+        let both = factors.flat_map(|(of, _)| [of.effect.first_order, of.effect.total]);
         both.map(|e| [e.estimate, e.interval.map_or(f64::NAN, |i| i.low), e.interval.map_or(f64::NAN, |i| i.high)])
             .collect()
     };

@@ -12,10 +12,11 @@
 //! Seeded: the same tables on every machine, but for the times. Some minutes on one core, most of them in
 //! the laws that are integrated, which are searched in fewer generations.
 
+use apportion::model::Counter;
 use std::time::Instant;
 
 use apportion::Study;
-use apportion::model::{Batch, EVALUATIONS, LARGEST_ERROR, Model, RUNGS, RunContext, Worker};
+use apportion::model::{Batch, Model, RunContext, Worker};
 
 /// A box of scenes: the name of its study, the study, and what is changed in it.
 type Area = (&'static str, &'static str, &'static [&'static str]);
@@ -139,7 +140,7 @@ fn compare(auto: &mut Rung, dynamic: &mut Rung, finest: f64, point: &[f64]) -> F
     if deviation.is_nan() {
         return Found { deviation: -1.0, estimate: 0.0, ratio: -1.0 };
     }
-    let estimate = auto.count(LARGEST_ERROR);
+    let estimate = auto.count(Counter::LARGEST_ERROR);
     Found { deviation, estimate, ratio: (deviation - finest).max(0.0) / estimate }
 }
 
@@ -196,9 +197,9 @@ fn row(of: &Area, decade: i32) {
     let start = Instant::now();
     lowest.run(&points);
     let microseconds = start.elapsed().as_secs_f64() / f64::from(scenes) * 1e6;
-    let share = |rung: &str| 100.0 * lowest.count(&format!("{RUNGS}{rung}")) / f64::from(scenes);
+    let share = |rung: &str| 100.0 * lowest.count(&format!("{}{rung}", Counter::RUNGS)) / f64::from(scenes);
     let shares = ["closed-form", "quasi-static", "dynamic"].map(|rung| format!("{:.1}", share(rung)));
-    let evaluations = lowest.count(EVALUATIONS) / f64::from(scenes);
+    let evaluations = lowest.count(Counter::EVALUATIONS) / f64::from(scenes);
     let [worst, closest] = search(dimensions, generations, |point| compare(&mut lowest, &mut highest, finest, point));
     println!(
         "| {} | 1e-{decade} | {} | {evaluations:.0} | {microseconds:.2} | {:.1e} | {:.1e} | {:.2} |",

@@ -53,10 +53,10 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-pub mod analysis;
-pub mod correction;
+mod analysis;
+mod correction;
 pub mod design;
-pub mod effect;
+mod effect;
 pub mod estimate;
 pub mod given;
 pub mod model;
@@ -67,13 +67,15 @@ pub mod salib;
 pub mod screening;
 pub mod space;
 pub mod study;
-pub mod surrogate;
+mod surrogate;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use apportion_base::quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
+pub use apportion_base::quantity::{Unit, UnitError, Unlikely};
+pub use correction::LowFidelityUse;
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
-pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
+pub use effect::IndexPair;
+pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
     GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
@@ -84,4 +86,5 @@ pub use run::{FailurePolicy, Progress, RemoteWorkers, RunError, Shard, ShardErro
 pub use runner::{Requests, Resume, Runner, WorkerStudy};
 pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
+pub use surrogate::NamedTerm;
 pub use uncertainty::{DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod};

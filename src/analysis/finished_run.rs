@@ -68,16 +68,18 @@ pub fn row_inputs(study: &Study, design: &Design, place: RowPosition) -> Vec<f64
     study.space.values_at(&u)
 }
 
-/// Formats the inputs of a row of `study`, such as `length = 300 um, velocity = 0 nm/s`; `place` may be outside the
-/// study's own design, which a growing run exceeds.
-pub fn inputs_in_words(study: &Study, place: RowPosition) -> String {
-    let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
-    let longer = points.filter(|points| *points > study.design.points_per_replicate());
-    let longer = longer.and_then(|points| study.design.with_points(points).ok());
-    let values = row_inputs(study, longer.as_ref().unwrap_or(&study.design), place);
-    let words = study.space.factors().iter().zip(values).map(|(factor, value)| {
-        let unit = factor.unit().to_string();
-        if unit == "1" { format!("{} = {value}", factor.name) } else { format!("{} = {value} {unit}", factor.name) }
-    });
-    words.collect::<Vec<_>>().join(", ")
+impl Study {
+    /// Formats the inputs of a row, such as `length = 300 um, velocity = 0 nm/s`; `place` may be outside the
+    /// study's own design, which a growing run exceeds.
+    pub fn inputs_in_words(&self, place: RowPosition) -> String {
+        let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
+        let longer = points.filter(|points| *points > self.design.points_per_replicate());
+        let longer = longer.and_then(|points| self.design.with_points(points).ok());
+        let values = row_inputs(self, longer.as_ref().unwrap_or(&self.design), place);
+        let words = self.space.factors().iter().zip(values).map(|(factor, value)| {
+            let unit = factor.unit().to_string();
+            if unit == "1" { format!("{} = {value}", factor.name) } else { format!("{} = {value} {unit}", factor.name) }
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
 }

@@ -17,15 +17,8 @@ mod surrogates;
 mod unlikely;
 mod warnings;
 
-pub use finished_run::inputs_in_words;
 pub(crate) use finished_run::{FinishedRun, LowFidelityTotals, named_inputs, outputs_kept};
-pub use measures::MAX_ROWS_OF_MEASURES;
-pub use output_indices::{EffectIndices, IntervalOptions, OutputIndices, output_indices};
+pub(crate) use output_indices::{IntervalOptions, output_indices};
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
-pub use setup::{study_setup, validity};
 pub(crate) use surrogates::{interval_options, surrogates};
-pub use unlikely::unlikely_outputs;
-
-/// Minimum number of outputs that have indices over all together, and an overview instead of pages for each.
-pub const MIN_OUTPUTS_TOGETHER: usize = 12;

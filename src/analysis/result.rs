@@ -1,22 +1,23 @@
 //! Conversion of the totals of a run to its result.
 
+use crate::model::Counter;
 use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::MIN_OUTPUTS_TOGETHER;
 use super::finished_run::{FinishedRun, LowFidelityTotals};
 use super::measures::MeasuredRows;
 use super::output::{OutputRows, output_result};
 use super::scatter::rows_of_scatter;
 use super::series::{series, single_outputs, together, together_records};
-use super::setup::{factor_record, study_record, validity};
+use super::setup::{factor_record, study_record};
 use super::surrogates::Corrections;
 use crate::effect::Effect;
 use crate::estimate::{FirstOrder, Scaling, Total};
-use crate::model::{EVALUATIONS, LARGEST_ERROR, Model, RUNGS};
+use crate::model::Model;
 use crate::result::{
     AggregateRecord, EffortRecord, LowFidelityRuns, Provenance, RungRecord, StopReason, StoppingRecord, StudyResult,
+    ValidityRecord,
 };
 use crate::run::Totals;
 use crate::study::Study;
@@ -46,7 +47,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> Stud
         outputs: outputs
             .map(|(number, output)| output_result(run, output, number, &whole, &corrected, &rows))
             .collect(),
-        validity: validity(model.flags().iter().zip(whole.flags.iter().copied()), design.rows()),
+        validity: ValidityRecord::of_flags(model.flags().iter().zip(whole.flags.iter().copied()), design.rows()),
         effort: effort(model, &whole),
         aggregate: aggregate(run),
         series,
@@ -114,7 +115,7 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     let FinishedRun { study, model, .. } = *run;
     let (outputs, single) = (model.outputs(), single_outputs(model));
     let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
-    if places.len() < 2 || !study.analysis.aggregate && places.len() < MIN_OUTPUTS_TOGETHER {
+    if places.len() < 2 || !study.analysis.aggregate && places.len() < StudyResult::MIN_OUTPUTS_TOGETHER {
         return None;
     }
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
@@ -135,11 +136,11 @@ fn effort(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
     let counts = || model.counters().iter().zip(whole.counts.values());
     let value = |name| counts().find(|(counter, _)| counter.name == name).map_or(0.0, |(_, value)| value);
     let rungs = counts().filter(|(_, runs)| *runs > 0.0).filter_map(|(counter, runs)| {
-        Some(RungRecord { rung: counter.name.strip_prefix(RUNGS)?.to_owned(), runs: runs as u64 })
+        Some(RungRecord { rung: counter.name.strip_prefix(Counter::RUNGS)?.to_owned(), runs: runs as u64 })
     });
     (!model.counters().is_empty()).then(|| EffortRecord {
         rungs: rungs.collect(),
-        evaluations: value(EVALUATIONS) as u64,
-        largest_error_estimate: value(LARGEST_ERROR),
+        evaluations: value(Counter::EVALUATIONS) as u64,
+        largest_error_estimate: value(Counter::LARGEST_ERROR),
     })
 }

@@ -7,12 +7,14 @@ use crate::result::{
 use crate::space::{Dependence, Distribution, Factor};
 use crate::study::Study;
 
-/// Returns the study as it was run.
-pub fn study_setup(study: &Study) -> StudySetup {
-    StudySetup {
-        study: study_record(study),
-        factors: study.space.factors().iter().map(|factor| factor_record(study, factor)).collect(),
-        sha256: study.source.sha256.clone(),
+impl Study {
+    /// Returns the study as it is recorded in results.
+    pub fn setup(&self) -> StudySetup {
+        StudySetup {
+            study: study_record(self),
+            factors: self.space.factors().iter().map(|factor| factor_record(self, factor)).collect(),
+            sha256: self.source.sha256.clone(),
+        }
     }
 }
 
@@ -56,14 +58,16 @@ fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
     }
 }
 
-/// Returns the validity flags with the number of the `runs` that have raised each.
-pub fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
-    let reported = raised.filter(|(flag, raised)| !flag.warns || *raised > 0);
-    let records = reported.map(|(flag, raised)| ValidityRecord {
-        flag: flag.name.to_string(),
-        description: flag.description.to_string(),
-        runs: raised,
-        share: raised as f64 / runs.max(1) as f64,
-    });
-    records.collect()
+impl ValidityRecord {
+    /// Returns the records of the validity flags with the number of the `runs` that have raised each.
+    pub fn of_flags<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<Self> {
+        let reported = raised.filter(|(flag, raised)| !flag.warns || *raised > 0);
+        let records = reported.map(|(flag, raised)| Self {
+            flag: flag.name.to_string(),
+            description: flag.description.to_string(),
+            runs: raised,
+            share: raised as f64 / runs.max(1) as f64,
+        });
+        records.collect()
+    }
 }

@@ -7,20 +7,22 @@ use crate::run::{RowBlock, Store};
 use crate::study::Study;
 use apportion_base::quantity::Unlikely;
 
-/// Returns for each output of `study` the unlikely value among those in `store`, if there is one.
-pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<Unlikely>> {
-    let design = &study.design;
-    let rows = design.points_per_replicate() * design.rows_per_point();
-    let blocks: Vec<RowBlock> =
-        (0..design.settings().replicates).filter_map(|replicate| store.block(replicate, 0..rows)).collect();
-    let model = study.model();
-    let outputs = model.outputs();
-    let mut unlikely = Vec::with_capacity(outputs.len());
-    for (number, output) in outputs.iter().enumerate() {
-        let values = blocks.iter().flat_map(|block| block.values.iter().skip(number).step_by(outputs.len()));
-        unlikely.push(Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>()));
+impl Study {
+    /// Returns for each output the unlikely value among those in `store`, if there is one.
+    pub fn unlikely_outputs(&self, store: &Store) -> Vec<Option<Unlikely>> {
+        let design = &self.design;
+        let rows = design.points_per_replicate() * design.rows_per_point();
+        let blocks: Vec<RowBlock> =
+            (0..design.settings().replicates).filter_map(|replicate| store.block(replicate, 0..rows)).collect();
+        let model = self.model();
+        let outputs = model.outputs();
+        let mut unlikely = Vec::with_capacity(outputs.len());
+        for (number, output) in outputs.iter().enumerate() {
+            let values = blocks.iter().flat_map(|block| block.values.iter().skip(number).step_by(outputs.len()));
+            unlikely.push(Unlikely::find(&values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>()));
+        }
+        unlikely
     }
-    unlikely
 }
 
 /// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate.

@@ -4,7 +4,7 @@ use super::error::CorrectionError;
 use super::estimates::SurrogateEstimates;
 use super::influenced::EstimateWithInfluences;
 use crate::effect::{Effect, EffectQuantities, IndexPair, Quantities};
-use crate::uncertainty::{Estimate, Judgement, difference};
+use crate::uncertainty::{Estimate, Judgement};
 
 /// The kinds of indices that are corrected; `None` for a kind whose plain ones stay.
 pub(super) struct Corrected<'a> {
@@ -88,9 +88,11 @@ impl Corrected<'_> {
                 return Some(total.error.even().judgement(&EstimateWithInfluences::combined(&terms)));
             }
             (Some(first_order), None) => {
-                difference(first_order.error.estimate(&first_order.list[at]), plain.total.estimate)
+                Estimate::difference(first_order.error.estimate(&first_order.list[at]), plain.total.estimate)
             }
-            (None, Some(total)) => difference(plain.first_order.estimate, total.error.estimate(&total.list[at])),
+            (None, Some(total)) => {
+                Estimate::difference(plain.first_order.estimate, total.error.estimate(&total.list[at]))
+            }
             (None, None) => return None,
         };
         Some(Judgement::new(estimate, plain.interaction.error, Vec::new()))

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES};
+use super::{Design, MAX_DIMENSIONS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_REPLICATES};
 
 /// Why a design cannot be created.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -12,7 +12,8 @@ pub enum DesignError {
     NoFactors,
     /// More factors than the maximum of any design.
     #[error(
-        "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or group factors with little effect"
+        "{factors} factors are too many: at most {} are possible; leave out or group factors with little effect",
+        Design::MAX_FACTORS
     )]
     FarTooManyFactors {
         /// The number requested.
@@ -73,7 +74,8 @@ pub enum DesignError {
     },
     /// A replicate would be longer than the sequence.
     #[error(
-        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points per replicate, the length of the sequence"
+        "{base_samples} base samples in {replicates} replicates exceed {} (2^32) points per replicate, the length of the sequence",
+        Design::MAX_POINTS
     )]
     TooManySamples {
         /// The number requested.

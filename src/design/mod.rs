@@ -3,7 +3,7 @@
 //! A design has `replicates` independent randomisations of `base_samples / replicates` base points each. A base point
 //! is one point of a 2d-dimensional sequence: its first d coordinates are the row of A, its last d the row of B. (Two
 //! sequences of d dimensions each would look similar, but the indices then never converge.) Every base point has `2 +
-//! k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B (Saltelli et
+//! k` rows: A, B, and one row AB_s for each of the k `Swap`s, which is A with some columns taken from B (Saltelli et
 //! al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns from A, are
 //! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at separate points,
 //! are used to fit surrogates.
@@ -23,15 +23,13 @@ use std::collections::BTreeSet;
 pub use base::BasePoints;
 pub use error::DesignError;
 use joe_kuo::MAX_DIMENSIONS;
-pub use latin::LatinHypercube;
-pub use random::RandomPoints;
+use latin::LatinHypercube;
+use random::RandomPoints;
 use rows::Runs;
-pub use rows::{Matrix, RowKind, Rows, Run, Swap};
+pub(crate) use rows::Swap;
+pub use rows::{Matrix, RowKind, Rows, Run};
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
-
-/// Maximum number of base points in a replicate: the length of the 32-bit Sobol' sequence.
-pub const MAX_POINTS: u64 = 1 << 32;
 
 /// Maximum number of replicates of a design.
 const MAX_REPLICATES: u64 = 4096;
@@ -45,9 +43,6 @@ pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
 /// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
 /// 60 dimensions is correlated by more than 0.1.
 const MAX_CORRELATED_POINTS: u64 = 1 << 10;
-
-/// Maximum number of factors of a design, for any sampler: every base point costs a run for each of them.
-pub const MAX_FACTORS: usize = 10_000;
 
 /// A checked Saltelli design.
 ///
@@ -73,6 +68,12 @@ pub struct Design {
 }
 
 impl Design {
+    /// Maximum number of base points in a replicate: the length of the 32-bit Sobol' sequence.
+    pub const MAX_POINTS: u64 = 1 << 32;
+
+    /// Maximum number of factors of a design, for any sampler: every base point costs a run for each of them.
+    pub const MAX_FACTORS: usize = 10_000;
+
     /// Creates a design over `factors` factors with `rows` (column numbers below `factors`) in addition to A and B.
     ///
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
@@ -85,10 +86,10 @@ impl Design {
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         let points = base_samples.div_ceil(replicates.max(1));
-        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS;
+        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > Design::MAX_POINTS;
         refuse([
             (factors == 0, DesignError::NoFactors),
-            (factors > MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
+            (factors > Design::MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
             (sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2, DesignError::TooManyFactors { factors }),
             (rows.plain_rows > MAX_PLAIN_ROWS, DesignError::TooManyPlainRows { plain_rows: rows.plain_rows }),
             (replicates == 0, DesignError::NoReplicates),
@@ -143,7 +144,7 @@ impl Design {
 
     /// Returns the longest design that a run of this one can grow into.
     pub(crate) fn longest(&self) -> Self {
-        let mut points = MAX_POINTS;
+        let mut points = Design::MAX_POINTS;
         loop {
             match self.with_points(points) {
                 Ok(longest) => return longest,

@@ -19,7 +19,7 @@ pub struct Rows {
     pub ba: bool,
     /// Whether the sums for second-order indices are kept; needs the rows BA.
     pub second_order: bool,
-    /// Rows of every base point at separate points, used only to fit surrogates ([`crate::surrogate`]).
+    /// Rows of every base point at separate points, used only to fit surrogates.
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
     pub copula: Option<Arc<GaussianCopula>>,

@@ -1,4 +1,5 @@
 use super::*;
+use crate::design::Design;
 
 fn design(sampler: Sampler) -> Design {
     let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };
@@ -140,7 +141,8 @@ fn impossible_designs_are_refused_with_the_reason() {
     assert_eq!(error, DesignError::TooManyReplicates { replicates: 5000 });
     // Dummies, since equal rows are run once.
     let rows = Rows::plain(vec![vec![]; 1 << 21]);
-    let full = DesignSettings { base_samples: MAX_POINTS * MAX_REPLICATES, replicates: MAX_REPLICATES, ..settings() };
+    let full =
+        DesignSettings { base_samples: Design::MAX_POINTS * MAX_REPLICATES, replicates: MAX_REPLICATES, ..settings() };
     assert!(matches!(Design::new(full, 1, rows), Err(DesignError::TooManyRuns { .. })));
     let error = Design::new(settings(), 2, Rows::plain(vec![vec![2]])).unwrap_err();
     assert_eq!(error, DesignError::NoSuchColumn { column: 2, factors: 2 });

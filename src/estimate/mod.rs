@@ -1,7 +1,7 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`Indices::from_moments`] computes the indices at its end, and
-//! [`FirstOrder`], [`Total`] and [`SecondOrder`] are other formulas on the same sums. Indices are the results of the
+//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`SecondOrder`] are the
+//! formulas on these sums. Indices are the results of the
 //! formulas, never clamped: a first-order index of -0.001 means that 0 is within its error.
 
 mod aggregate;
@@ -23,22 +23,22 @@ mod shapley;
 mod swap_moments;
 mod workspace;
 
-pub use aggregate::{Scaling, aggregated};
-pub use base_moments::BaseMoments;
-pub use central::CentralMoments;
+pub use aggregate::Scaling;
+pub(crate) use aggregate::aggregated;
+pub(crate) use base_moments::BaseMoments;
+pub(crate) use central::CentralMoments;
 pub use estimator::Estimator;
-pub use indices::Indices;
+pub(crate) use indices::Indices;
 pub use moments::{BlockOutputs, Moments};
 pub use of_one_index::{FirstOrder, Total};
-pub use pair_moments::PairMoments;
-pub use parts::{MAX_PARTS, MomentParts, merged, part_length};
-pub use point_outputs::PointOutputs;
-pub use products::{ProductWork, Products};
+pub(crate) use parts::{MomentParts, merged, part_length};
+pub(crate) use point_outputs::PointOutputs;
+pub(crate) use products::{ProductWork, Products};
 pub(crate) use quantities::quantities;
 use salib::second_order_of_salib;
 pub use second_order::SecondOrder;
-pub use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
-pub use swap_moments::{BaMoments, SwapMoments};
+pub(crate) use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
+pub(crate) use swap_moments::{BaMoments, SwapMoments};
 use thiserror::Error;
 pub use workspace::Workspace;
 
@@ -68,13 +68,7 @@ pub enum Undefined {
 }
 
 /// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.
-///
-/// ```
-/// use apportion::estimate::shares;
-/// assert_eq!(shares(&[0.3, 0.1]), Some(vec![75.0, 25.0]));
-/// assert_eq!(shares(&[0.0, 0.0]), None);
-/// ```
-pub fn shares(indices: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn shares(indices: &[f64]) -> Option<Vec<f64>> {
     let sum: f64 = indices.iter().sum();
     (sum > 0.0).then(|| indices.iter().map(|x| 100.0 * x / sum).collect())
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::order::{Order, Partition};
-use crate::uncertainty::{Estimate, Interval, LEVEL};
+use crate::uncertainty::{Estimate, Interval};
 use apportion_base::sum::rescaled;
 
 /// Minimum number of rows of a bin with a slope.
@@ -157,7 +157,7 @@ impl Lines {
         // A few rows of a thin tail may have all of the variance: only they count.
         let carrying = if fourth_powers > 0.0 { squares * squares / fourth_powers } else { rows };
         let t = StudentsT::new(0.0, 1.0, (rows - parameters).min(carrying).max(2.0)).ok()?;
-        Some(t.inverse_cdf((1.0 + LEVEL) / 2.0) * variance.sqrt() / z.iter().map(|z| z * z).sum::<f64>())
+        Some(t.inverse_cdf((1.0 + Interval::LEVEL) / 2.0) * variance.sqrt() / z.iter().map(|z| z * z).sum::<f64>())
     }
 }
 

@@ -17,20 +17,19 @@ mod rank;
 mod repeats;
 mod surrogate;
 
-pub use binned::{Binned, bins_for};
+pub use binned::Binned;
+use binned::bins_for;
 pub(crate) use column::centred;
 pub use column::{Column, NoVariance, TextColumn};
 pub use dependence::{Dependence, PairDependence};
 pub use evenness::PointSet;
 pub(crate) use measures::measures_of_rows;
-pub use measures::{InputMeasures, MAX_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, SIGNIFICANT, measures};
+pub use measures::{InputMeasures, Measure, Measured, measures};
 use order::Order;
 pub use outcome::{InputIndices, OutputIndices};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-pub use surrogate::{
-    MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
-};
+pub use surrogate::{SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices};
 use thiserror::Error;
 
 /// Minimum number of rows: with fewer, an interval is wider than the range of an index.
@@ -116,6 +115,13 @@ pub struct GivenIndices {
     pub dependence: Option<Dependence>,
     /// One entry per output.
     pub outputs: Vec<OutputIndices>,
+}
+
+impl GivenIndices {
+    /// Returns the number of bins of an input that has different values in all rows.
+    pub fn bins(&self) -> usize {
+        bins_for(self.rows)
+    }
 }
 
 /// Estimates first-order indices of every output with respect to every input.

@@ -3,7 +3,7 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::order::Order;
-use crate::uncertainty::{Estimate, Interval, LEVEL};
+use crate::uncertainty::{Estimate, Interval};
 
 /// Estimates the first-order index of the centred outputs `z` with respect to an input by ranks (Gamboa, Gremaud, Klein and Lagnoux 2022,
 /// "Global sensitivity analysis: a novel generation of mighty estimators based on rank statistics", Bernoulli 28(4)):
@@ -40,7 +40,7 @@ pub(super) fn of_order(order: &Order, z: &[f64], seed: u64, stream: u64) -> Esti
     let standard_error = standard_error(&order.shuffled(seed, stream), z, estimate) / (square_sum / n);
     let closing = 0.5 * (first.mean_square() + last.mean_square()) - first.mean() * last.mean();
     let interval = StudentsT::new(0.0, 1.0, n - 1.0).ok().map(|t| {
-        let half_width = t.inverse_cdf((1.0 + LEVEL) / 2.0) * standard_error;
+        let half_width = t.inverse_cdf((1.0 + Interval::LEVEL) / 2.0) * standard_error;
         Interval { low: estimate - half_width, high: estimate + half_width + closing / square_sum }
     });
     Estimate { estimate, interval }

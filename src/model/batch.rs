@@ -152,7 +152,7 @@ impl Batch {
         self.add_counts(&part.flags, &part.counts);
     }
 
-    /// Fails every value that is not finite and has no failure yet, with [`RowFailure::not_finite`] or the reason why
+    /// Fails every value that is not finite and has no failure yet, with `RowFailure::not_finite` or the reason why
     /// the model gave up, and sorts the failures. Must be called once after the worker.
     pub fn settle(&mut self) {
         let unnamed = self.given_up.clone().map_or_else(RowFailure::not_finite, |give_up| give_up.reason);

@@ -2,13 +2,6 @@
 
 use std::borrow::Cow;
 
-/// Prefix of the names of counters of rows evaluated by a rung of the ladder of fidelities.
-pub const RUNGS: &str = "rungs.";
-/// Name of the counter of evaluations of the right-hand side.
-pub const EVALUATIONS: &str = "evaluations";
-/// Name of the counter of the largest relative error estimate of any row.
-pub const LARGEST_ERROR: &str = "largest_error_estimate";
-
 /// A quantity that a model counts over the rows of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Counter {
@@ -16,6 +9,17 @@ pub struct Counter {
     pub name: Cow<'static, str>,
     /// How the counts of two rows are combined.
     pub kind: CounterKind,
+}
+
+impl Counter {
+    /// Prefix of the names of counters of rows evaluated by a rung of the ladder of fidelities.
+    pub const RUNGS: &str = "rungs.";
+
+    /// Name of the counter of evaluations of the right-hand side.
+    pub const EVALUATIONS: &str = "evaluations";
+
+    /// Name of the counter of the largest relative error estimate of any row.
+    pub const LARGEST_ERROR: &str = "largest_error_estimate";
 }
 
 /// How counts are combined. No bit depends on their order: sums are of whole numbers, and exact up to 2^53.

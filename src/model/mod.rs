@@ -17,15 +17,14 @@ use std::borrow::Cow;
 
 pub use batch::{Batch, GiveUp, RowFailure};
 pub use context::{Messages, RunContext};
-pub use counter::{Counter, CounterKind, Counts, EVALUATIONS, LARGEST_ERROR, RUNGS};
+pub use counter::{Counter, CounterKind, Counts};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use function::{FunctionModel, function_model};
 pub use known::{
-    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
-    ParameterValue, known_inputs, known_model, known_output,
+    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, ParameterError, ParameterInfo, ParameterValue,
 };
 pub use repeated::RepeatedModel;
-pub use series::{MAX_SERIES_VALUES, OutputSeries, SeriesAxis, SeriesError, item_of_list, items_of_header};
+pub use series::{OutputSeries, SeriesAxis, SeriesError};
 
 use crate::space::Distribution;
 use apportion_base::quantity::{Domain, Unit};

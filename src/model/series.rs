@@ -7,14 +7,11 @@ use thiserror::Error;
 use super::Output;
 use apportion_base::quantity::Unit;
 
-/// Maximum number of values of a series: each is an output, with its own sums.
-pub const MAX_SERIES_VALUES: usize = 10_000;
-
 /// Errors in an axis.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SeriesError {
     /// Too few values, or too many.
-    #[error("a series has 2 to {MAX_SERIES_VALUES} values, not {found}")]
+    #[error("a series has 2 to {} values, not {found}", OutputSeries::MAX_VALUES)]
     Length {
         /// The number of values.
         found: usize,
@@ -44,7 +41,7 @@ impl SeriesAxis {
     /// [`SeriesError`] unless there are 2 to 10,000 positions, finite and in rising order.
     pub fn new(label: &str, unit: &str, positions: Vec<f64>) -> Result<Self, SeriesError> {
         let found = positions.len();
-        if !(2..=MAX_SERIES_VALUES).contains(&found) {
+        if !(2..=OutputSeries::MAX_VALUES).contains(&found) {
             return Err(SeriesError::Length { found });
         }
         let mut before = f64::NEG_INFINITY;
@@ -62,7 +59,7 @@ impl SeriesAxis {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn even(label: &str, unit: &str, length: usize, start: f64, step: f64) -> Result<Self, SeriesError> {
-        if length > MAX_SERIES_VALUES {
+        if length > OutputSeries::MAX_VALUES {
             return Err(SeriesError::Length { found: length });
         }
         Self::new(label, unit, (0..length).map(|place| start + step * place as f64).collect())
@@ -96,6 +93,28 @@ pub struct OutputSeries {
 }
 
 impl OutputSeries {
+    /// Maximum number of values of a series: each is an output, with its own sums.
+    pub const MAX_VALUES: usize = 10_000;
+
+    /// Returns the list and the index in it for a name such as `infected[12]`.
+    pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
+        let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
+        let place = plain_number(place).filter(|_| !list.is_empty())?;
+        Some((list, place))
+    }
+
+    /// Iterates over the names in a header such as `infected[0..365]`: those of the items from the first index to the
+    /// second, exclusive. `None` for any other header, and for more than 10,000 items.
+    pub fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
+        let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
+        let (first, end) = range.split_once("..")?;
+        let (first, end) = (plain_number(first)?, plain_number(end)?);
+        let items = end.checked_sub(first)?;
+        let is_list = !list.is_empty() && (1..=OutputSeries::MAX_VALUES).contains(&items);
+        let list = list.to_owned();
+        is_list.then(|| (first..end).map(move |place| format!("{list}[{place}]")))
+    }
+
     /// Returns the indices of its values among the outputs.
     pub fn places(&self) -> Range<usize> {
         self.first..self.first + self.axis.positions.len()
@@ -123,28 +142,9 @@ impl OutputSeries {
     }
 }
 
-/// Returns the list and the index in it for a name such as `infected[12]`.
-pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
-    let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
-    let place = plain_number(place).filter(|_| !list.is_empty())?;
-    Some((list, place))
-}
-
 /// Reads a number that consists of digits alone.
 fn plain_number(digits: &str) -> Option<usize> {
     digits.bytes().all(|byte| byte.is_ascii_digit()).then(|| digits.parse().ok())?
-}
-
-/// Iterates over the names in a header such as `infected[0..365]`: those of the items from the first index to the
-/// second, exclusive. `None` for any other header, and for more than 10,000 items.
-pub fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
-    let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
-    let (first, end) = range.split_once("..")?;
-    let (first, end) = (plain_number(first)?, plain_number(end)?);
-    let items = end.checked_sub(first)?;
-    let is_list = !list.is_empty() && (1..=MAX_SERIES_VALUES).contains(&items);
-    let list = list.to_owned();
-    is_list.then(|| (first..end).map(move |place| format!("{list}[{place}]")))
 }
 
 #[cfg(test)]

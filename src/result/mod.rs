@@ -16,7 +16,7 @@ mod warning;
 
 use std::ops::Range;
 
-pub use distribution::{Histogram, OutputDistribution, PERCENTS, QuantileRecord, quantile};
+pub use distribution::{Histogram, OutputDistribution, QuantileRecord};
 pub use indices::*;
 use output::find;
 pub use output::*;
@@ -91,6 +91,9 @@ pub struct StudyResult {
 }
 
 impl StudyResult {
+    /// Minimum number of outputs that have indices over all together, and an overview instead of pages for each.
+    pub const MIN_OUTPUTS_TOGETHER: usize = 12;
+
     /// Returns the names of what has indices, in their order: the factors, or the groups in place of their factors.
     pub fn indexed_names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();

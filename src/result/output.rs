@@ -213,7 +213,7 @@ pub struct FailureCount {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
-    /// Number of rows A and B with a value: at most [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES).
+    /// Number of rows A and B with a value: at most 4096.
     pub rows: usize,
     /// The measures of every factor but a noise.
     pub factors: Vec<InputMeasures>,

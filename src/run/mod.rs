@@ -1,6 +1,6 @@
 //! Running a design through a model: fixed blocks of base points, folded into totals of constant size.
 //!
-//! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends only
+//! A block is 256 base points with all of their rows. Blocks are merged in a binary tree whose shape depends only
 //! on the number of blocks, so the totals have the same bits on any number of threads; memory does not grow with the
 //! number of samples, unless outputs are kept.
 //!
@@ -33,13 +33,12 @@ pub use each::run_each;
 pub use error::RunError;
 pub use failures::RowPosition;
 pub(crate) use failures::Tally;
-pub use growing::GrowingRun;
+pub(crate) use growing::GrowingRun;
 use journal::Journal;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
 pub(crate) use remote::{DesignKey, Remote, Reply, Request};
-pub use repeats::Repeats;
-pub(crate) use repeats::repeat_rows;
+pub(crate) use repeats::{Repeats, repeat_rows};
 pub use rows::RowValues;
 pub(crate) use rows::{RowWorker, answered};
 pub(crate) use scratch::failed_rows;
@@ -47,22 +46,22 @@ pub use shard::{Shard, ShardError};
 pub use store::{RowBlock, Store};
 pub use table::{EvaluationStopped, TableRun};
 pub(crate) use totals::SAMPLE;
-pub use totals::Totals;
+pub(crate) use totals::Totals;
 
 use crate::design::Design;
-use crate::model::{Model, RunContext};
+use crate::model::Model;
 use crate::space::Space;
 use apportion_base::names::named;
 
 /// Base points in a block: their columns fit in the cache, and a block takes long enough to be worth a task.
-pub const BLOCK: u64 = 256;
+pub(crate) const BLOCK: u64 = 256;
 
 /// How long to wait for remote workers between two checks for a stop.
 const STOP_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// The work of a run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// The rows in the unit cube.
     pub design: &'a Design,
     /// The distributions that map them to SI units; as many factors as the design.
@@ -87,23 +86,7 @@ pub struct Progress {
 }
 
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
-pub const MAX_STORED_BYTES: u64 = 8 << 30;
-
-/// Runs all rows of the job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
-///
-/// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
-///
-/// # Panics
-/// If the number of factors of the space differs from that of the design.
-///
-/// # Errors
-/// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
-pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
-    let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, threads)?;
-    run.grow_to(job.design.points_per_replicate(), on_progress)?;
-    Ok(run.totals)
-}
+pub(crate) const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
 pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {

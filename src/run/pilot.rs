@@ -4,6 +4,7 @@ use super::repeats::compare;
 use super::rows::{RowRange, RowWorker};
 use super::{Job, Repeats, RunError, failed_rows, threads_in_force};
 use crate::model::RunContext;
+use crate::study::Study;
 
 /// A few runs of a design, and the predicted time of all of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,11 +29,11 @@ impl Pilot {
     ///
     /// # Errors
     /// [`RunError`] if the model gives up or the run of `context` is to stop.
-    pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
+    pub fn new(study: &Study, context: &RunContext<'_>) -> Result<Self, RunError> {
         const MIN_SECONDS: f64 = 0.3;
         const MAX_ROWS: u64 = 1 << 18;
-        let Job { design, space, model } = job;
-        let mut worker = RowWorker::new(model, context);
+        let (design, space, model) = (study.design(), study.space(), study.model());
+        let mut worker = RowWorker::new(model.as_ref(), context);
         let mut seconds_of = |rows: u64| {
             let seconds = worker.run(space, design, &RowRange { replicate: 0, rows: 0..rows });
             worker.batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
@@ -50,7 +51,7 @@ impl Pilot {
         let mut repeats = None;
         if model.may_be_random() {
             let first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
-            repeats = Some(compare(job, context, &[(0, 0)], &[first_row])?);
+            repeats = Some(compare(Job { design, space, model: model.as_ref() }, context, &[(0, 0)], &[first_row])?);
         }
         let workers = model.concurrency().unwrap_or_else(|| threads_in_force(0)).max(1);
         let all_rows = seconds * design.rows() as f64 / runs as f64 / workers as f64;

@@ -3,9 +3,21 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
 use crate::design::{DesignSettings, Rows, Sampler};
-use crate::model::{Batch, Output, RowFailure, Worker};
+use crate::model::{Batch, Output, RowFailure, RunContext, Worker};
 use crate::space::{Distribution, Factor};
 use apportion_base::quantity::Unit;
+
+/// Runs all rows of the job and returns the totals of each replicate.
+pub(super) fn run(
+    job: Job<'_>,
+    threads: usize,
+    on_progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Totals>, RunError> {
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(job, &context, threads)?;
+    run.grow_to(job.design.points_per_replicate(), on_progress)?;
+    Ok(run.totals)
+}
 
 /// x0 + 2 x1, failing where x0 > 0.75 if `fails`.
 struct Sum {

@@ -13,6 +13,43 @@ pub enum SalibLayout {
 }
 
 impl SalibLayout {
+    /// Returns the layout of `rows` rows for the indices of `members`: the `stated` one, or the only one that fits the
+    /// number of rows and the `inputs`, if these are given. Members have the indices of their inputs.
+    ///
+    /// # Errors
+    /// [`SalibError`] if the rows fit none, or both.
+    pub fn recognise(
+        rows: usize,
+        members: &[(String, Vec<usize>)],
+        stated: Option<SalibLayout>,
+        inputs: Option<&Inputs>,
+    ) -> Result<SalibLayout, SalibError> {
+        let d = members.len();
+        let candidates = stated.map_or(SalibLayout::ALL.to_vec(), |layout| vec![layout]);
+        let (mut expected, mut fitting, mut misfit) = (Vec::new(), Vec::new(), None);
+        for layout in candidates {
+            expected.push(format!("{} rows each {}", layout.rows_per_point(d), layout.words()));
+            if rows == 0 || !rows.is_multiple_of(layout.rows_per_point(d)) {
+                continue;
+            }
+            match inputs.map_or(Ok(()), |inputs| check_points(inputs, members, layout)) {
+                Ok(()) => fitting.push(layout),
+                Err(error) => misfit = misfit.or(Some(error)),
+            }
+        }
+        match fitting[..] {
+            [] => Err(misfit.unwrap_or_else(|| {
+                let there_are = format!("for {d} inputs or groups there are {}", expected.join(", "));
+                SalibError::Invalid(format!("{rows} rows are not a whole number of base points: {there_are}"))
+            })),
+            [layout] if rows == layout.rows_per_point(d) => {
+                Err(SalibError::Invalid(format!("{rows} rows are a single base point: two or more are needed")))
+            }
+            [layout] => Ok(layout),
+            _ => Err(SalibError::Ambiguous { rows, members: d }),
+        }
+    }
+
     /// Both layouts.
     pub const ALL: [Self; 2] = [Self::SecondOrder, Self::FirstOrder];
 
@@ -49,43 +86,6 @@ impl SalibLayout {
 
 /// Inputs by name, a column each.
 pub type Inputs = [(String, Vec<f64>)];
-
-/// Returns the layout of `rows` rows for the indices of `members`: the `stated` one, or the only one that fits the
-/// number of rows and the `inputs`, if these are given. Members have the indices of their inputs.
-///
-/// # Errors
-/// [`SalibError`] if the rows fit none, or both.
-pub fn recognise(
-    rows: usize,
-    members: &[(String, Vec<usize>)],
-    stated: Option<SalibLayout>,
-    inputs: Option<&Inputs>,
-) -> Result<SalibLayout, SalibError> {
-    let d = members.len();
-    let candidates = stated.map_or(SalibLayout::ALL.to_vec(), |layout| vec![layout]);
-    let (mut expected, mut fitting, mut misfit) = (Vec::new(), Vec::new(), None);
-    for layout in candidates {
-        expected.push(format!("{} rows each {}", layout.rows_per_point(d), layout.words()));
-        if rows == 0 || !rows.is_multiple_of(layout.rows_per_point(d)) {
-            continue;
-        }
-        match inputs.map_or(Ok(()), |inputs| check_points(inputs, members, layout)) {
-            Ok(()) => fitting.push(layout),
-            Err(error) => misfit = misfit.or(Some(error)),
-        }
-    }
-    match fitting[..] {
-        [] => Err(misfit.unwrap_or_else(|| {
-            let there_are = format!("for {d} inputs or groups there are {}", expected.join(", "));
-            SalibError::Invalid(format!("{rows} rows are not a whole number of base points: {there_are}"))
-        })),
-        [layout] if rows == layout.rows_per_point(d) => {
-            Err(SalibError::Invalid(format!("{rows} rows are a single base point: two or more are needed")))
-        }
-        [layout] => Ok(layout),
-        _ => Err(SalibError::Ambiguous { rows, members: d }),
-    }
-}
 
 /// Checks the layout of the points: in every base point the rows between A and B must be those of one with the inputs
 /// of their member from the other.

@@ -10,7 +10,7 @@ mod study;
 #[cfg(test)]
 mod tests;
 
-pub use layout::{SalibLayout, recognise};
+pub use layout::SalibLayout;
 pub use problem::SalibProblem;
 pub use study::salib_study;
 use thiserror::Error;

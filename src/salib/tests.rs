@@ -29,15 +29,15 @@ fn problem(d: usize) -> SalibProblem {
 #[test]
 fn both_layouts_are_recognised_by_their_points() {
     let members = problem(2).members;
-    let refused = |rows| recognise(rows, &members, None, None).unwrap_err().to_string();
+    let refused = |rows| SalibLayout::recognise(rows, &members, None, None).unwrap_err().to_string();
     for layout in SalibLayout::ALL {
         // 12 base points of 4 rows are 8 of 6 rows.
         let columns = points(2, 48 / layout.rows_per_point(2), layout);
         let inputs = Some(&columns[..]);
-        assert_eq!(recognise(48, &members, None, inputs), Ok(layout));
-        assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
+        assert_eq!(SalibLayout::recognise(48, &members, None, inputs), Ok(layout));
+        assert_eq!(SalibLayout::recognise(48, &members, Some(layout), None), Ok(layout));
     }
-    assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
+    assert_eq!(SalibLayout::recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
     insta::assert_snapshot!([48, 7, 4].map(refused).join("\n"));
 }
 
@@ -45,7 +45,7 @@ fn both_layouts_are_recognised_by_their_points() {
 fn shuffled_rows_are_found() {
     let mut columns = points(3, 4, SalibLayout::SecondOrder);
     columns.iter_mut().for_each(|(_, column)| column.swap(9, 13));
-    let error = recognise(32, &problem(3).members, None, Some(&columns)).unwrap_err();
+    let error = SalibLayout::recognise(32, &problem(3).members, None, Some(&columns)).unwrap_err();
     assert!(error.to_string().starts_with("row 10 "), "{error}");
 }
 
@@ -122,7 +122,7 @@ fn codes_for_missing_values_are_found() {
     let columns = points(3, 128, SalibLayout::FirstOrder);
     let mut y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + b).collect();
     y.iter_mut().step_by(49).for_each(|y| *y = -9999.0);
-    let found = crate::Unlikely::find(&y).unwrap();
+    let found = apportion_base::quantity::Unlikely::find(&y).unwrap();
     assert_eq!((found.value, found.count, found.first), (-9999.0, 14, 0));
     let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
     assert!(warnings.iter().any(|warning| matches!(warning, Warning::FewRows { .. })), "{warnings:?}");

@@ -5,9 +5,6 @@ use serde::{Deserialize, Serialize};
 use crate::uncertainty::{Estimate, jackknife};
 use apportion_base::sum::{centred_product, mean};
 
-/// A factor could be fixed if the upper bound of mu* is below this part of the largest mu*.
-pub const FIXABLE: f64 = 0.05;
-
 /// The interpretation of sigma / mu* (Garcia Sanchez, Lacarriere, Musy and Bourges 2014, Energy and Buildings 68,
 /// 741-750).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -8,9 +8,9 @@
 //! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
 //! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] summarises them, [`Reading`]
-//! interprets them. A factor could be fixed if its upper bound of mu* is below [`FIXABLE`] times the largest.
+//! interprets them. A factor could be fixed if its upper bound of mu* is below [`Screening::FIXABLE`] times the largest.
 //!
-//! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
+//! In the radial design a step shorter than [`ScreeningSettings::MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
 //! further on, modulo the range: tiny steps would divide the noise and the jumps of the output by nearly 0.
 
 mod measures;
@@ -21,12 +21,12 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use measures::{FIXABLE, Reading};
+pub use measures::Reading;
 use points::Trajectories;
 use run::Outcome;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-pub use settings::{MAX_LEVELS, MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
+pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
@@ -63,6 +63,11 @@ pub struct Screening {
     pub outputs: Vec<ScreenedOutput>,
 }
 
+impl Screening {
+    /// A factor could be fixed if the upper bound of mu* is below this part of the largest mu*.
+    pub const FIXABLE: f64 = 0.05;
+}
+
 /// The results of a screening for one output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedOutput {
@@ -96,7 +101,7 @@ pub struct ScreenedFactor {
     pub ratio: Option<Estimate>,
     /// The interpretation of the ratio; `None` without measures, or if every effect is 0.
     pub reading: Option<Reading>,
-    /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
+    /// Whether the upper bound of mu* is below [`Screening::FIXABLE`] times the largest mu*, by at least half of the effects.
     /// `None` if this is unknown: without measures or an interval, or if no factor has any effect.
     pub could_be_fixed: Option<bool>,
     /// Number of elementary effects used.
@@ -242,8 +247,9 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
     }
     for factor in &mut screened {
         let high = factor.mu_star.and_then(|mu_star| mu_star.interval).map(|interval| interval.high);
-        factor.could_be_fixed =
-            high.filter(|_| largest > 0.0).map(|high| high < FIXABLE * largest && factor.effects >= factor.dropped);
+        factor.could_be_fixed = high
+            .filter(|_| largest > 0.0)
+            .map(|high| high < Screening::FIXABLE * largest && factor.effects >= factor.dropped);
     }
     screened
 }

@@ -3,9 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::settings::{MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
+use super::settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
-use crate::space::distribution::{LARGEST_U, SMALLEST_U};
 use crate::space::{Distribution, Factor, Space};
 
 /// End of the grid on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
@@ -115,7 +114,7 @@ impl Trajectories {
             let (a, b) = (columns[j][0], columns[factors + j][0]);
             let (u, step) = match grid {
                 Grid::Continuous => {
-                    let b = if (b - a).abs() < MIN_STEP { half_way_round(b) } else { b };
+                    let b = if (b - a).abs() < ScreeningSettings::MIN_STEP { half_way_round(b) } else { b };
                     ([a, b], b - a)
                 }
                 Grid::Seeds => ([a, b], 1.0),
@@ -143,7 +142,9 @@ impl Trajectories {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is irrelevant.
                 Grid::Continuous => ([0.5, 0.5], 1.0),
-                Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
+                Grid::Seeds => {
+                    ([0; 2].map(|_| rng.random_range(Distribution::SMALLEST_U..=Distribution::LARGEST_U)), 1.0)
+                }
                 Grid::Discrete(levels) => two_levels(levels, rng.random(), rng.random()),
                 Grid::Levels(levels) => {
                     let count = levels.len();
@@ -186,7 +187,7 @@ fn level_at(levels: &[Level], u: f64) -> usize {
 
 /// Returns the coordinate half a range further on, modulo 1.
 fn half_way_round(u: f64) -> f64 {
-    (if u < 0.5 { u + 0.5 } else { u - 0.5 }).clamp(SMALLEST_U, LARGEST_U)
+    (if u < 0.5 { u + 0.5 } else { u - 0.5 }).clamp(Distribution::SMALLEST_U, Distribution::LARGEST_U)
 }
 
 impl Grid {

@@ -10,14 +10,6 @@ use crate::run::RunError;
 const MIN_TRAJECTORIES: u64 = 4;
 /// Maximum number of model runs of a screening: its effects are kept in memory, 8 bytes each.
 const MAX_RUNS: u64 = 1 << 27;
-/// Maximum number of levels of the trajectory design's grid.
-pub const MAX_LEVELS: u32 = 1000;
-/// Shortest step of the radial design, as a part of the factor's range.
-///
-/// With steps s >= h, an elementary effect is at most |difference of the output| / h, so that sigma is finite wherever
-/// the output has a variance; with steps down to 0, a single jump of the output makes sigma infinite, since the
-/// integral of 1/s diverges. The price is a small shift of sigma: for x^2, -3 %.
-pub const MIN_STEP: f64 = 0.02;
 
 /// Independent randomisations of quasi-random points, whose spread gives the intervals.
 const REPLICATES: u64 = 8;
@@ -80,6 +72,16 @@ impl Default for ScreeningSettings {
 }
 
 impl ScreeningSettings {
+    /// Maximum number of levels of the trajectory design's grid.
+    pub const MAX_LEVELS: u32 = 1000;
+
+    /// Shortest step of the radial design, as a part of the factor's range.
+    ///
+    /// With steps s >= h, an elementary effect is at most |difference of the output| / h, so that sigma is finite wherever
+    /// the output has a variance; with steps down to 0, a single jump of the output makes sigma infinite, since the
+    /// integral of 1/s diverges. The price is a small shift of sigma: for x^2, -3 %.
+    pub const MIN_STEP: f64 = 0.02;
+
     /// Returns the settings with `trajectories` rounded up to equal independent parts, and the number of these parts,
     /// used for the intervals: 8 randomisations of quasi-random points (fewer below 16 trajectories), or every
     /// independent trajectory by itself (64 parts above 64 trajectories).
@@ -92,7 +94,7 @@ impl ScreeningSettings {
             return Err(ScreeningError::TooFewTrajectories { trajectories: self.trajectories });
         }
         if let ScreeningDesign::Trajectory { levels } = self.design
-            && (levels % 2 == 1 || !(2..=MAX_LEVELS).contains(&levels))
+            && (levels % 2 == 1 || !(2..=ScreeningSettings::MAX_LEVELS).contains(&levels))
         {
             return Err(ScreeningError::Levels { levels });
         }
@@ -119,7 +121,8 @@ pub enum ScreeningError {
     },
     /// A grid that the method does not allow.
     #[error(
-        "{levels} levels: the trajectory design needs an even number from 2 to {MAX_LEVELS}, so that all levels are equally likely; 4 is usual"
+        "{levels} levels: the trajectory design needs an even number from 2 to {}, so that all levels are equally likely; 4 is usual",
+        ScreeningSettings::MAX_LEVELS
     )]
     Levels {
         /// The number requested.

@@ -1,3 +1,4 @@
+use crate::screening::ScreeningSettings;
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
@@ -101,7 +102,7 @@ fn a_linear_function_has_its_slopes_and_no_spread() {
             screened(&space, settings(design, 16), |x| Some(x.iter().zip(slopes).map(|(x, c)| x * c).sum()));
         for (m, expected) in measured(&screening).iter().zip([3.0, -20.0, 1e-9, 0.0]) {
             // The output's own rounding, 20 eps, over the shortest step.
-            let rounding = 20.0 * f64::EPSILON / MIN_STEP;
+            let rounding = 20.0 * f64::EPSILON / ScreeningSettings::MIN_STEP;
             assert!((m.mu.estimate - expected).abs() <= rounding, "{design:?}: {m:?}");
             assert!((m.mu_star.estimate - expected.abs()).abs() <= rounding && m.sigma.estimate <= rounding);
         }
@@ -123,7 +124,7 @@ fn a_parabola_and_a_product_have_their_known_moments() {
     // the steps that are below h become steps of a half: 2 a on (0, 2) becomes 2 a +- 1/2 on (1/2, 3/2), the variance
     // of that part falls from 1/3 to 1/12, and the mean stays. On Morris's grid of 4 levels the effect is 2/3 or 4/3; in every
     // other walk, whose steps are of one level, it is 1/3, 1 or 5/3, of probabilities 3/8, 1/4, 3/8: variances 1/9 and 1/3.
-    let moved = MIN_STEP * (2.0 - MIN_STEP);
+    let moved = ScreeningSettings::MIN_STEP * (2.0 - ScreeningSettings::MIN_STEP);
     for (design, sigma, slack) in
         [(SOBOL, (1.0 / 6.0 - moved / 4.0).sqrt(), 0.005), (WALK, (2.0f64 / 9.0).sqrt(), 0.01)]
     {
@@ -204,7 +205,7 @@ fn steps_are_never_tiny_and_points_never_at_the_ends() {
         let points = Trajectories::new(&space, &settings, parts).unwrap();
         for number in 0..512 {
             for m in points.moves(number) {
-                assert!((m.u[1] - m.u[0]).abs() >= MIN_STEP && m.step == m.u[1] - m.u[0], "{m:?}");
+                assert!((m.u[1] - m.u[0]).abs() >= ScreeningSettings::MIN_STEP && m.step == m.u[1] - m.u[0], "{m:?}");
                 assert!(m.u.iter().all(|u| *u > 0.0 && *u < 1.0));
             }
         }
@@ -397,7 +398,7 @@ fn settings_are_checked_and_rounded() {
     let refused = |design, trajectories, factors| settings(design, trajectories).in_force(factors).unwrap_err();
     assert!(matches!(refused(SOBOL, 3, 1), ScreeningError::TooFewTrajectories { trajectories: 3 }));
     assert!(matches!(refused(SOBOL, u64::MAX, 3), ScreeningError::TooManyRuns { factors: 3, .. }));
-    for levels in [0, 1, 3, MAX_LEVELS + 2] {
+    for levels in [0, 1, 3, ScreeningSettings::MAX_LEVELS + 2] {
         let error = refused(ScreeningDesign::Trajectory { levels }, 8, 1);
         assert!(matches!(error, ScreeningError::Levels { levels: given } if given == levels), "{error}");
     }

@@ -1,8 +1,8 @@
 //! The Gaussian copula: factors whose normal scores are correlated, each with any distribution.
 
+use crate::space::Distribution;
 use nalgebra::{DMatrix, DVector};
 
-use super::distribution::{LARGEST_U, SMALLEST_U};
 use apportion_base::special::{normal_below, normal_quantile};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
@@ -126,7 +126,7 @@ pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
 
 /// Returns the coordinate of the unit cube with this normal score, inside the range of all coordinates.
 pub(crate) fn from_score(score: f64) -> f64 {
-    normal_below(score).clamp(SMALLEST_U, LARGEST_U)
+    normal_below(score).clamp(Distribution::SMALLEST_U, Distribution::LARGEST_U)
 }
 
 fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {

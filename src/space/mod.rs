@@ -8,10 +8,9 @@ pub mod distribution;
 
 use std::sync::Arc;
 
-pub use copula::GaussianCopula;
-pub(crate) use copula::{from_score, normal_scores};
+pub(crate) use copula::{GaussianCopula, from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
-pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
+pub use distribution::{Distribution, DistributionError};
 
 use serde::{Deserialize, Serialize};
 

@@ -24,9 +24,9 @@ pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
+use crate::run::BLOCK;
 use crate::space::Space;
 use crate::surrogate::fewest_points;
-pub use apportion_base::names::nearest;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it. Its methods describe its fields.
 #[derive(Debug, Clone)]
@@ -53,11 +53,6 @@ pub struct StudySource {
     pub overrides: Vec<String>,
     /// Notes on values that were read differently from how they were written, in sentences.
     pub notes: Vec<String>,
-}
-
-/// Returns the end of a message about an unknown name, if a similar one exists; two candidates are joined by "and".
-pub fn did_you_mean(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }
 
 impl Study {
@@ -243,6 +238,13 @@ impl Study {
                 values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL && has_size
             }
         }
+    }
+
+    /// Returns the bytes that each thread of a run takes: the columns of the factors in a block (unit cube and SI, A and
+    /// B), and of every output of every kind of row.
+    pub fn bytes_per_thread(&self) -> u64 {
+        let outputs = self.model().outputs().len() as u64;
+        (2 * self.design.columns() as u64 + self.design.rows_per_point() * (outputs + 1)) * BLOCK * 8
     }
 
     /// Returns the rows times outputs of a run of `design`, and whether the model is a program, if these determine

@@ -24,11 +24,11 @@ pub struct AnalysisOptions {
     pub subsets: Vec<Vec<usize>>,
     /// What has indices: the factors, or the groups in place of their factors.
     pub indices_of: IndicesOf,
-    /// Whether Shapley effects are estimated, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS)
+    /// Whether Shapley effects are estimated, of at most eight
     /// factors or groups. `None` estimates them for up to four if factors depend on each other.
     pub shapley: Option<bool>,
     /// Other measures to report in addition to Sobol' indices, from the first
-    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most 100 outputs.
+    /// 4096 rows A and B; of at most 100 outputs.
     pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are estimated.
     pub aggregate: bool,

@@ -14,14 +14,12 @@ mod orthogonal;
 pub(crate) mod outputs;
 mod terms;
 
-pub use basis::Caps;
 pub use choice::SurrogateChoice;
 pub use cross_fit::cross_fitted;
 pub(crate) use cross_fit::{expansion_without, fitted_to_others};
 pub use family::Family;
 pub(crate) use family::Knot;
 pub use fit::Expansion;
-pub use net::Net;
 pub(crate) use terms::{ChosenTerms, Effects, is_interaction, leading_terms, touches, within};
 pub use terms::{NamedTerm, SurrogateTerm};
 

@@ -7,14 +7,14 @@ mod range;
 #[cfg(test)]
 mod tests;
 use range::is_logarithmic;
-pub use range::{MAX_POINTS, values_over_range};
+pub use range::values_over_range;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::model::{Batch, Model, Output, RowFailure, RunContext};
 use crate::run::{EvaluationStopped, TableRun};
 use crate::space::Space;
-use crate::study::{did_you_mean, nearest};
+use apportion_base::names::{did_you_mean, nearest};
 
 /// The results of sweeps.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +27,11 @@ pub struct Sweeps {
     pub runs: u64,
     /// For each validity flag of the model: runs that raised it.
     pub flags: Vec<u64>,
+}
+
+impl Sweeps {
+    /// Maximum number of values of one factor.
+    pub const MAX_POINTS: usize = 100_000;
 }
 
 /// An output at the nominal point.
@@ -111,7 +116,7 @@ pub enum SweepError {
     #[error("factor `{0}` is listed twice")]
     Repeated(String),
     /// Too few or too many points.
-    #[error("{0} points: a sweep needs from 2 to {MAX_POINTS}")]
+    #[error("{0} points: a sweep needs from 2 to {max}", max = Sweeps::MAX_POINTS)]
     Points(usize),
 }
 
@@ -144,7 +149,7 @@ pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, Swee
 ///
 /// # Example
 /// ```
-/// use apportion::model::{RunContext, known_model};
+/// use apportion::model::RunContext;
 /// use apportion::space::{Factor, Space};
 /// use apportion::sweep::sweep;
 /// use apportion::{KnownAnswer, Unit};
@@ -155,7 +160,7 @@ pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, Swee
 /// };
 /// let space = Space::new(function.inputs().iter().map(factor).collect::<Result<_, _>>()?);
 /// let count = function.inputs().len();
-/// let model = known_model(function, vec![0.0; count], (0..count).collect());
+/// let model = function.model(vec![0.0; count], (0..count).collect());
 /// let swept = sweep(&space, &model, &[0], 3, &RunContext::default())?;
 /// let y = &swept.sweeps[0].outputs[0];
 /// assert!(y.high.zip(y.low).is_some_and(|(high, low)| high > low));

@@ -2,11 +2,10 @@
 
 use super::SweepError;
 use crate::space::Distribution;
+use crate::sweep::Sweeps;
 
 /// End of a sweep on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
 const TAIL: f64 = 1e-3;
-/// Maximum number of values of one factor.
-pub const MAX_POINTS: usize = 100_000;
 
 /// Returns `points` values of a factor from end to end, in its unit: at equal ratios if it is log-uniform or
 /// log-normal, otherwise at equal distances. A discrete factor takes each of its values, or some of many whole numbers.
@@ -14,7 +13,7 @@ pub const MAX_POINTS: usize = 100_000;
 /// # Errors
 /// [`SweepError::Points`] if there are fewer than 2 or more than 100,000 points.
 pub fn values_over_range(distribution: &Distribution, points: usize) -> Result<Vec<f64>, SweepError> {
-    if !(2..=MAX_POINTS).contains(&points) {
+    if !(2..=Sweeps::MAX_POINTS).contains(&points) {
         return Err(SweepError::Points(points));
     }
     let (low, high) = range(distribution);

@@ -2,6 +2,7 @@ use super::*;
 use crate::model::Worker;
 use crate::space::Distribution;
 use crate::space::Factor;
+use crate::sweep::Sweeps;
 use apportion_base::quantity::Unit;
 
 /// y = x0^3 / x1^2, and z = x2^2, which fails where x2 is above 0.8.
@@ -116,7 +117,7 @@ fn ranges_end_where_the_distribution_does() {
     assert!(log_normal[0] > 0.0 && (log_normal[1].powi(2) / (log_normal[0] * log_normal[2]) - 1.0).abs() < 1e-12);
     assert_eq!(values(Distribution::discrete(&[3.0, 1.0, 3.0], None).unwrap(), 50), [1.0, 3.0]);
     assert_eq!(values(Distribution::constant(2.5).unwrap(), 50), [2.5]);
-    for points in [0, 1, MAX_POINTS + 1] {
+    for points in [0, 1, Sweeps::MAX_POINTS + 1] {
         let discrete = Distribution::discrete(&[3.0, 1.0], None).unwrap();
         assert_eq!(values_over_range(&discrete, points), Err(SweepError::Points(points)));
     }

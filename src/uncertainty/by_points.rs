@@ -5,7 +5,7 @@ use super::delta::delta_errors;
 use super::method::IntervalMethod;
 use super::points::KeptPoints;
 use super::standard_error::StandardError;
-use super::{Interval, LEVEL, t_interval};
+use super::{Interval, t_interval};
 use crate::estimate::{Moments, Products};
 
 /// Maximum share of resamples in which a quantity may be undefined and still have an interval.
@@ -53,7 +53,8 @@ impl ByPoints<'_> {
             }
             sorted.sort_by(f64::total_cmp);
             let error = StandardError { error: deviation(&sorted, *estimate), freedom };
-            let [low, high] = [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0].map(|p| quantile(&sorted, p));
+            let [low, high] =
+                [(1.0 - Interval::LEVEL) / 2.0, (1.0 + Interval::LEVEL) / 2.0].map(|p| quantile(&sorted, p));
             bounds.push((error, Some(Interval { low, high })));
         }
         bounds

@@ -28,8 +28,8 @@ pub struct EffectEstimates {
     #[serde(default)]
     pub interaction: Option<Estimate>,
     /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors';
-    /// `None` for other effects than factors, and if errors are unknown or [ranks](crate::analysis::IntervalOptions::ranks) were
-    /// not requested. If several total indices are truly equal, any value is equally likely.
+    /// `None` for other effects than factors, and if errors are unknown or ranks were not
+    /// requested. If several total indices are truly equal, any value is equally likely.
     #[serde(default)]
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.

@@ -1,8 +1,8 @@
 //! Confidence intervals of estimates, and quantities derived from them.
 //!
-//! An estimate depends on all runs. [`Influences`] are the influences of each part of them; an [`IntervalMethod`] turns
+//! An estimate depends on all runs. Influences are those of each part of them; an [`IntervalMethod`] turns
 //! these into a standard error: for Sobol' points by the decay of the error in a net, for random points by their batches, or from the
-//! outputs of every point ([`KeptPoints`]) by the delta method or a bootstrap.
+//! outputs of every point by the delta method or a bootstrap.
 
 mod bootstrap;
 mod by_points;
@@ -21,25 +21,21 @@ mod standard_error;
 mod unseen;
 
 pub(crate) use by_points::ByPoints;
-pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OutputMoments};
-pub(crate) use effects::{agreeing, differs_clearly};
-pub use influence::{Influences, LeftOut};
-pub use jackknife::jackknife;
+pub use effects::{DependentEstimates, EffectEstimates};
+pub(crate) use effects::{EffectChecks, OutputMoments, agreeing, differs_clearly};
+pub(crate) use influence::{Influences, LeftOut};
+pub(crate) use jackknife::jackknife;
 pub(crate) use judgement::Judgement;
 pub use method::IntervalMethod;
-pub use points::KeptPoints;
+pub(crate) use points::KeptPoints;
 pub(crate) use ranks::probability_first;
 use serde::{Deserialize, Serialize};
-pub(crate) use standard_error::{ErrorKind, Side};
-pub use standard_error::{PartInfluences, StandardError};
+pub(crate) use standard_error::{ErrorKind, PartInfluences, Side, StandardError};
 pub(crate) use unseen::{half_seen, unseen};
 
 use apportion_base::special::t_quantile_outside;
 
-/// Confidence level of every interval.
-pub const LEVEL: f64 = 0.95;
-
-/// Quantile of the normal distribution for [`LEVEL`].
+/// Quantile of the normal distribution for [`Interval::LEVEL`].
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// Maximum correlation of the two columns of a factor for which the spread of the nets shows its effect on the indices.
@@ -56,6 +52,15 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// Returns the two-sided t-interval about `estimate` with a standard error of `freedom` degrees of freedom; `None`
+    /// if one of them is unknown.
+    pub fn students_t(estimate: f64, error: f64, freedom: f64) -> Option<Self> {
+        t_interval(estimate, StandardError { error, freedom })
+    }
+
+    /// Confidence level of every interval.
+    pub const LEVEL: f64 = 0.95;
+
     /// Returns the interval with `middle` at its centre.
     pub fn about(middle: f64, half_width: f64) -> Self {
         Self { low: middle - half_width, high: middle + half_width }
@@ -89,6 +94,33 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Returns `b` minus `a`, with an interval of the level of theirs, if both have one.
+    ///
+    /// With the distances of the bounds from their estimates,
+    /// low = b - a - sqrt((b - b_low)² + (a_high - a)²) and high = b - a + sqrt((b_high - b)² + (a - a_low)²):
+    /// the method of Zou and Donner (2008), *Construction of confidence limits about effect measures: a general approach*,
+    /// Statistics in Medicine 27, 1693-1702, for two estimates whose errors are independent. For symmetric intervals this
+    /// is the root of the sum of squares of the half widths.
+    ///
+    /// ```
+    /// use apportion::{Estimate, Interval};
+    ///
+    /// let a = Estimate { estimate: 0.5, interval: Some(Interval { low: 0.47, high: 0.53 }) };
+    /// let b = Estimate { estimate: 0.7, interval: Some(Interval { low: 0.66, high: 0.74 }) };
+    /// let d = Estimate::difference(a, b);
+    /// assert!((d.estimate - 0.2).abs() < 1e-15);
+    /// let interval = d.interval.unwrap();
+    /// assert!((interval.low - 0.15).abs() < 1e-15 && (interval.high - 0.25).abs() < 1e-15);
+    /// ```
+    pub fn difference(a: Estimate, b: Estimate) -> Estimate {
+        let estimate = b.estimate - a.estimate;
+        let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
+            low: estimate - libm::hypot(of_b.low - b.estimate, of_a.high - a.estimate),
+            high: estimate + libm::hypot(of_b.high - b.estimate, of_a.low - a.estimate),
+        });
+        Estimate { estimate, interval }
+    }
+
     /// Returns a number of unknown error.
     pub fn alone(estimate: f64) -> Self {
         Self { estimate, interval: None }
@@ -119,36 +151,8 @@ impl From<EstimateRecord> for Estimate {
     }
 }
 
-/// Returns `b` minus `a`, with an interval of the level of theirs, if both have one.
-///
-/// With the distances of the bounds from their estimates,
-/// low = b - a - sqrt((b - b_low)² + (a_high - a)²) and high = b - a + sqrt((b_high - b)² + (a - a_low)²):
-/// the method of Zou and Donner (2008), *Construction of confidence limits about effect measures: a general approach*,
-/// Statistics in Medicine 27, 1693-1702, for two estimates whose errors are independent. For symmetric intervals this
-/// is the root of the sum of squares of the half widths.
-///
-/// ```
-/// use apportion::{Estimate, Interval};
-/// use apportion::uncertainty::difference;
-///
-/// let a = Estimate { estimate: 0.5, interval: Some(Interval { low: 0.47, high: 0.53 }) };
-/// let b = Estimate { estimate: 0.7, interval: Some(Interval { low: 0.66, high: 0.74 }) };
-/// let d = difference(a, b);
-/// assert!((d.estimate - 0.2).abs() < 1e-15);
-/// let interval = d.interval.unwrap();
-/// assert!((interval.low - 0.15).abs() < 1e-15 && (interval.high - 0.25).abs() < 1e-15);
-/// ```
-pub fn difference(a: Estimate, b: Estimate) -> Estimate {
-    let estimate = b.estimate - a.estimate;
-    let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
-        low: estimate - libm::hypot(of_b.low - b.estimate, of_a.high - a.estimate),
-        high: estimate + libm::hypot(of_b.high - b.estimate, of_a.low - a.estimate),
-    });
-    Estimate { estimate, interval }
-}
-
-/// Returns the two-sided t-interval at [`LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
-pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
+/// Returns the two-sided t-interval at [`Interval::LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
+pub(crate) fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     if error.error == 0.0 {
         return Interval::about(estimate, 0.0).finite();
     }
@@ -156,7 +160,7 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     Interval::about(estimate, half_width).finite()
 }
 
-/// Returns the quantile of Student's t for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
+/// Returns the quantile of Student's t for a two-sided interval at [`Interval::LEVEL`]; `None` without degrees of freedom.
 pub(crate) fn t_quantile(freedom: f64) -> Option<f64> {
     // Above this the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
     // 1e-8.
@@ -165,7 +169,7 @@ pub(crate) fn t_quantile(freedom: f64) -> Option<f64> {
         let z = NORMAL_QUANTILE;
         return Some(z + (z.powi(3) + z) / (4.0 * freedom)).filter(|_| freedom.is_finite());
     }
-    (freedom > 0.0).then(|| t_quantile_outside(1.0 - LEVEL, freedom)).filter(|quantile| quantile.is_finite())
+    (freedom > 0.0).then(|| t_quantile_outside(1.0 - Interval::LEVEL, freedom)).filter(|quantile| quantile.is_finite())
 }
 
 /// Returns half the width of the widest interval; `None` if an estimate has none.

@@ -1,7 +1,7 @@
 //! The convergence rate of the errors with Sobol' points (`benches/accuracy.rs` measures it in detail).
 
 #[path = "../../benches/outputs/mod.rs"]
-mod outputs;
+pub mod outputs;
 
 use apportion::design::{DesignSettings, Sampler};
 use apportion::estimate::{FirstOrder, Total, Workspace};

@@ -304,6 +304,21 @@ pub fn portfolio_costs() -> ([f64; 4], [f64; 10]) {
     (single.map(|c| c / V), proper.map(|c| c / V))
 }
 
+/// Shapley effects of `members` from the costs of the sets of them, each a mask of its members.
+pub fn shapley(members: usize, cost: &dyn Fn(usize) -> f64) -> Vec<f64> {
+    let factorial = |n: usize| (1..=n).product::<usize>() as f64;
+    let effect = |member: usize| {
+        let others = (0..1 << members).filter(|mask: &usize| mask >> member & 1 == 0);
+        let weighted = others.map(|mask| {
+            let size = mask.count_ones() as usize;
+            let weight = factorial(size) * factorial(members - size - 1) / factorial(members);
+            weight * (cost(mask | 1 << member) - cost(mask))
+        });
+        weighted.sum()
+    };
+    (0..members).map(effect).collect()
+}
+
 #[test]
 fn the_portfolio_has_the_published_indices() {
     let study =
@@ -312,7 +327,10 @@ fn the_portfolio_has_the_published_indices() {
     let output = analysis.output("value").unwrap();
     let first = [1_537_600.0 / 3_033_600.0, 1_210_000.0 / 3_033_600.0, 0.0, 0.0];
     let (total, proper) = portfolio_costs();
-    let shapley = ::apportion::estimate::shapley_effects(&total, &proper);
+    // By masks: those of one factor, and the proper subsets in the order of their masks.
+    let costs = [0.0, total[0], total[1], proper[0], total[2], proper[1], proper[2], proper[3], total[3]];
+    let costs = [&costs[..], &proper[4..], &[1.0]].concat();
+    let shapley = shapley(4, &|mask| costs[mask]);
     assert!((shapley.iter().sum::<f64>() - 1.0).abs() < 1e-12);
     for (i, name) in ["x1", "x2", "x3", "x4"].into_iter().enumerate() {
         let effect = output.factor(name).unwrap();

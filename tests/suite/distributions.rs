@@ -1,7 +1,7 @@
 //! Quantile functions against frozen references, independent distribution functions, symmetries and
 //! numerical integration. `tests/oracle/distributions.py` made the references.
 
-use apportion::space::distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
+use apportion::space::distribution::{Distribution, DistributionError};
 use proptest::prelude::*;
 use serde_json::Value;
 use statrs::function::beta::beta_reg;
@@ -175,7 +175,13 @@ fn distribution_function_of_quantile_is_the_probability() {
         }),
         (Distribution::beta(0.2, 1.0, 0.0, 1.0), |x| (x.powf(0.2), 1.0 - x.powf(0.2))),
     ];
-    let u = (1..200).map(|step| f64::from(step) / 200.0).chain([SMALLEST_U, 1e-15, 1e-6, 1.0 - 1e-6, 1.0 - 1e-9]);
+    let u = (1..200).map(|step| f64::from(step) / 200.0).chain([
+        Distribution::SMALLEST_U,
+        1e-15,
+        1e-6,
+        1.0 - 1e-6,
+        1.0 - 1e-9,
+    ]);
     let u: Vec<f64> = u.collect();
     for (distribution, tails) in cases {
         let distribution = made(distribution);
@@ -226,7 +232,7 @@ fn integral(function: impl Fn(f64) -> f64) -> f64 {
         let t = step * f64::from(index);
         let ratio = (-std::f64::consts::PI * t.sinh()).exp();
         let u = 1.0 / (1.0 + ratio);
-        if !(SMALLEST_U..=LARGEST_U).contains(&u) {
+        if !(Distribution::SMALLEST_U..=Distribution::LARGEST_U).contains(&u) {
             return 0.0;
         }
         step * std::f64::consts::PI * t.cosh() * u * ratio / (1.0 + ratio) * function(u)
@@ -286,8 +292,8 @@ fn log_uniform_moments_hold_from_narrow_to_widest() {
         // A few ulp, more where the exponential of +-700 amplifies the rounding of its argument.
         assert!((distribution.mean() / mean - 1.0).abs() < 2e-13, "{min} {max} {}", distribution.mean());
         assert!((distribution.sd() / sd - 1.0).abs() < 2e-13, "{min} {max} {}", distribution.sd());
-        assert!((distribution.quantile(SMALLEST_U) / min - 1.0).abs() < 2e-13, "{min} {max}");
-        assert!((distribution.quantile(LARGEST_U) / max - 1.0).abs() < 2e-13, "{min} {max}");
+        assert!((distribution.quantile(Distribution::SMALLEST_U) / min - 1.0).abs() < 2e-13, "{min} {max}");
+        assert!((distribution.quantile(Distribution::LARGEST_U) / max - 1.0).abs() < 2e-13, "{min} {max}");
     }
 }
 
@@ -341,12 +347,12 @@ fn any_distribution() -> impl Strategy<Value = Distribution> {
 /// The whole range of `u`, in particular its ends.
 fn any_u() -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => SMALLEST_U..=LARGEST_U,
+        4 => Distribution::SMALLEST_U..=Distribution::LARGEST_U,
         2 => (-64.0..-1.0f64).prop_map(f64::exp2),
         2 => (-53.0..-1.0f64).prop_map(|power| 1.0 - power.exp2()),
-        1 => Just(SMALLEST_U),
+        1 => Just(Distribution::SMALLEST_U),
         1 => Just(0.5f64.powi(33)),
-        1 => Just(LARGEST_U),
+        1 => Just(Distribution::LARGEST_U),
     ]
 }
 
@@ -357,7 +363,7 @@ proptest! {
     fn quantiles_never_fall_nor_leave_the_support(distribution in any_distribution(), u in any_u(), v in any_u()) {
         let (low, high) = distribution.support();
         let exact = matches!(distribution.name(), "uniform" | "triangular");
-        for (u, v) in [(u.min(v), u.max(v)), (u, u.next_up().min(LARGEST_U))] {
+        for (u, v) in [(u.min(v), u.max(v)), (u, u.next_up().min(Distribution::LARGEST_U))] {
             let (before, after) = (distribution.quantile(u), distribution.quantile(v));
             prop_assert!(before.is_finite() && (low..=high).contains(&before), "{:?} {}", distribution, u);
             // Where rounding decides, a few ulp of the value and of the location that is added, and what a solved F resolves.

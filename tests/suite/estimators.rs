@@ -1,24 +1,19 @@
 //! Every estimator on every function with a closed form, at two sizes, on every sampler.
 
-use std::path::Path;
+use apportion::design::{DesignSettings, Sampler};
+use apportion::estimate::{FirstOrder, Total, Workspace};
+use apportion::model::{Basis, KnownAnswer, KnownFunction};
 
-use apportion::design::{Design, DesignSettings, Rows, Sampler};
-use apportion::estimate::{FirstOrder, Moments, Total};
-use apportion::model::{Basis, KnownAnswer};
-use apportion::run::{Job, run};
-use apportion::study::Study;
+use crate::accuracy::outputs::{Outputs, design};
 
 const SEEDS: u64 = 16;
 
 /// Estimates of every estimator and factor, one list per seed, and what they should be.
-fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>> {
-    let (factors, model) = (study.space().factors().len(), study.model());
+fn estimates(function: &KnownFunction, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>> {
+    let factors = function.inputs().len();
     let of_seed = |seed| {
-        let rows = Rows { swaps: (0..factors).map(|j| vec![j]).collect(), ba: true, ..Rows::default() };
-        let settings = DesignSettings { sampler, base_samples, replicates: 1, seed };
-        let design = Design::new(settings, factors, rows).unwrap();
-        let job = Job { design: &design, space: study.space(), model: model.as_ref() };
-        let moments: Moments = run(job, 0, &|_| ()).unwrap()[0].outputs[0].moments.whole();
+        let design = design(DesignSettings { sampler, base_samples, replicates: 1, seed }, factors, false);
+        let moments = Outputs::of(function, &design).moments(0..base_samples as usize, &mut Workspace::default());
         let of = |estimate: &dyn Fn(usize) -> f64| (0..factors).map(estimate).collect::<Vec<_>>();
         let first = FirstOrder::ALL.into_iter().map(|estimator| of(&|j| estimator.estimate(&moments, j)));
         let total = Total::ALL.into_iter().map(|estimator| of(&|j| estimator.estimate(&moments, j)));
@@ -38,15 +33,14 @@ fn every_estimator_is_within_its_error_of_every_closed_form_on_every_sampler() {
                 .concat()
                 .concat();
         let uneven = exact.mean.powi(2) / exact.variance + 1.0;
-        let text = format!("model = \"{}\"", answer.name);
-        let study = apportion_files::parse_study(&text, Path::new("estimators.toml"), &[]).unwrap();
+        let function = answer.default_function();
         for sampler in Sampler::ALL {
             for base_samples in [256, 1024] {
-                let all = estimates(&study, sampler, base_samples);
+                let all = estimates(&function, sampler, base_samples);
                 for (place, exact) in expected.iter().enumerate() {
                     let n = SEEDS as f64;
                     // As published, Saltelli 2002 divides one of its sums by N - 1 and the other by N.
-                    let estimator = FirstOrder::ALL.get(place / study.space().factors().len());
+                    let estimator = FirstOrder::ALL.get(place / function.inputs().len());
                     let published = if estimator == Some(&FirstOrder::Saltelli2002) { uneven } else { 0.0 };
                     let room = published / (base_samples - 1) as f64 + 1e-9;
                     let mean = all.iter().map(|list| list[place]).sum::<f64>() / n;

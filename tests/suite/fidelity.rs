@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use apportion::result::read_result;
-use apportion::run::{GrowingRun, Job, Store, run};
-use apportion::{Distribution, RunContext, Study, Target, function_model};
+use apportion::run::Store;
+use apportion::{Distribution, Study, Target, function_model};
 
 use crate::common::{Folder, apportion, effects, stderr, study_path, succeed, text};
 use crate::messages::messages;
@@ -234,14 +234,9 @@ fn the_physics_gives_the_same_bits_row_by_row() {
     for fidelity in ["closed-form", "quasi-static"] {
         let changes = [format!("afm.fidelity=\"{fidelity}\""), "design.base_samples=64".to_owned()];
         let study = apportion_files::load_study(&study_path("lugre-general"), &changes).unwrap();
-        let model = study.model();
-        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
-        let plain = run(job, 1, &|_| ()).unwrap();
-        let store = Store::new(model.as_ref());
-        let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, 2).unwrap();
-        run.store = Some(&store);
-        run.grow_to(u64::MAX, &|_| ()).unwrap();
-        assert!(format!("{:?}", run.totals()) == format!("{plain:?}"), "{fidelity}");
+        let plain = study.runner().threads(1).run().unwrap();
+        let store = Store::new(study.model().as_ref());
+        let stored = study.runner().threads(2).store(&store).run().unwrap();
+        assert!(stored.outputs == plain.outputs, "{fidelity}");
     }
 }

@@ -1,6 +1,5 @@
 //! Indices and Shapley effects of groups in place of their factors.
 
-use ::apportion::estimate::{proper_subsets, shapley_effects};
 use ::apportion::space::IndicesOf;
 use ::apportion::{
     AnalysisOptions, BuildError, Dependence, Distribution, Estimate, Factor, Sampler, Study, SurrogateChoice, Unit,
@@ -8,7 +7,7 @@ use ::apportion::{
 };
 
 use crate::common::{Folder, effects, succeed, text};
-use crate::dependent::{Linear, correlations};
+use crate::dependent::{Linear, correlations, shapley};
 use crate::messages::messages;
 
 fn factor(name: &str, law: Distribution, group: Option<&str>) -> Factor {
@@ -40,13 +39,11 @@ impl Grouped {
     /// From c(u) = E Var(Y | all factors outside the groups u)/V of all sets u of groups, which normal factors have in closed form.
     fn exact(&self) -> Vec<f64> {
         let members = self.members();
-        let cost = |set: &[usize]| {
-            let factors: Vec<usize> = set.iter().flat_map(|member| members[*member].clone()).collect();
+        shapley(members.len(), &|mask| {
+            let set = (0..members.len()).filter(|member| mask >> member & 1 == 1);
+            let factors: Vec<usize> = set.flat_map(|member| members[member].clone()).collect();
             self.linear.total(&factors)
-        };
-        let single: Vec<f64> = (0..members.len()).map(|member| cost(&[member])).collect();
-        let proper: Vec<f64> = proper_subsets(members.len()).iter().map(|set| cost(set)).collect();
-        shapley_effects(&single, &proper)
+        })
     }
 
     fn study(&self, base_samples: u64, seed: u64) -> Study {

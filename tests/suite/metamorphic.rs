@@ -1,13 +1,9 @@
 //! Invariance: offset and scale of the output, order of the factors, number of threads.
 
-use apportion::analysis::{IntervalOptions, OutputIndices, output_indices};
-use apportion::design::{Design, DesignSettings, Rows};
-use apportion::effect::Layout;
+use apportion::EffectEstimates;
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
-use apportion::run::{Job, run};
-use apportion::space::{Distribution, Factor, Space};
-use apportion::uncertainty::{Estimate, IntervalMethod};
-use apportion_base::quantity::Unit;
+use apportion::result::Named;
+use apportion::{AnalysisOptions, Distribution, Estimate, Sampler, Study, SurrogateChoice, Unit};
 use proptest::prelude::*;
 
 use crate::common::{analysed, apportion, gap, numbers, study_path};
@@ -50,49 +46,41 @@ impl Worker for ChangedWorker<'_> {
     }
 }
 
-fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
+fn indices(model: Changed, base_samples: u64) -> Vec<Named<EffectEstimates>> {
     let pi = std::f64::consts::PI;
-    let range = || Distribution::uniform(-pi, pi).unwrap();
-    let factor = |name| Factor::new(name, Unit::dimensionless(), range()).unwrap();
-    let space = Space::new(["x1", "x2", "x3"].map(factor).to_vec());
-    let settings = DesignSettings { base_samples, replicates: 4, ..DesignSettings::default() };
-    let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
-    let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
-    let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
-    let options = IntervalOptions {
-        method: IntervalMethod::Nets,
-        threshold: 0.05,
-        seed: 0,
-        resamples: 0,
-        points: None,
-        ranks: true,
-        correlations: &[],
-        surrogate: None,
+    let options = AnalysisOptions {
+        surrogate: SurrogateChoice::Off,
+        convergence: false,
+        ..AnalysisOptions::for_sampler(Sampler::Sobol)
     };
-    output_indices(&moments, &Layout::plain(3), &options).unwrap()
+    let mut study = Study::builder("changed", model).base_samples(base_samples).replicates(4).analysis(options);
+    for name in ["x1", "x2", "x3"] {
+        study = study.factor(name, Distribution::uniform(-pi, pi).unwrap());
+    }
+    study.build().unwrap().run().unwrap().outputs[0].indices.clone().unwrap()
 }
 
-fn flat(indices: &OutputIndices) -> Vec<f64> {
+fn flat(indices: &[Named<EffectEstimates>]) -> Vec<f64> {
     [numbers_of(indices, |e| vec![e.estimate]), bounds(indices)].concat()
 }
 
-fn bounds(indices: &OutputIndices) -> Vec<f64> {
+fn bounds(indices: &[Named<EffectEstimates>]) -> Vec<f64> {
     numbers_of(indices, |e| vec![e.interval.unwrap().low, e.interval.unwrap().high])
 }
 
-fn numbers_of(indices: &OutputIndices, of: fn(Estimate) -> Vec<f64>) -> Vec<f64> {
-    let all = indices.effects.iter();
-    all.flat_map(|of| [of.estimates.first_order, of.estimates.total, of.checks.gap]).flat_map(of).collect()
+fn numbers_of(indices: &[Named<EffectEstimates>], of: fn(Estimate) -> Vec<f64>) -> Vec<f64> {
+    let all = indices.iter();
+    all.flat_map(|of| [of.effect.first_order, of.effect.total]).flat_map(of).collect()
 }
 
 #[test]
 fn an_offset_of_1e9_changes_no_index_by_1e_9() {
-    let estimates = |indices: &OutputIndices| numbers_of(indices, |e| vec![e.estimate]);
-    let plain = indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
+    let estimates = |indices: &[Named<EffectEstimates>]| numbers_of(indices, |e| vec![e.estimate]);
+    let plain = indices(Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
     for offset in [1e6, 1e9, -1e9] {
         // Adding 1e9 rounds each output by up to 6e-8; over 2^14 points this leaves some 1e-10 in an index. Bounds rest on
         // differences between 64ths of the points, where eight times as much is left.
-        let shifted = indices(&Changed::new(1.0, offset, [0, 1, 2]), 1 << 14);
+        let shifted = indices(Changed::new(1.0, offset, [0, 1, 2]), 1 << 14);
         let (estimates, bounds) =
             (gap(&estimates(&plain), &estimates(&shifted)), gap(&bounds(&plain), &bounds(&shifted)));
         assert!(estimates < 1e-9 && bounds < 8e-9, "offset {offset}: {estimates}, {bounds}");
@@ -101,23 +89,23 @@ fn an_offset_of_1e9_changes_no_index_by_1e_9() {
 
 #[test]
 fn a_scale_from_1e_minus_120_to_1e120_changes_nothing() {
-    let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 10));
+    let plain = flat(&indices(Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 10));
     for scale in [1e-120, 1e-30, -1.0, 1e30, 1e120] {
         // Only the rounding of the scaled outputs differs, some 1e-16 each; a sign cancels.
-        let scaled = flat(&indices(&Changed::new(scale, 0.0, [0, 1, 2]), 1 << 10));
+        let scaled = flat(&indices(Changed::new(scale, 0.0, [0, 1, 2]), 1 << 10));
         assert!(gap(&plain, &scaled) < 1e-12, "scale {scale}: {}", gap(&plain, &scaled));
     }
     // Powers of two scale without rounding: the same bits.
-    assert_eq!(plain, flat(&indices(&Changed::new(2f64.powi(-100), 0.0, [0, 1, 2]), 1 << 10)));
+    assert_eq!(plain, flat(&indices(Changed::new(2f64.powi(-100), 0.0, [0, 1, 2]), 1 << 10)));
 }
 
 #[test]
 fn the_order_of_the_factors_changes_their_coordinates_only() {
     // Other coordinates of the sequence are another design of the same quality: equal within the error of 2^14 points.
-    let plain = indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
-    let swapped = indices(&Changed::new(1.0, 0.0, [2, 0, 1]), 1 << 14);
+    let plain = indices(Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
+    let swapped = indices(Changed::new(1.0, 0.0, [2, 0, 1]), 1 << 14);
     for (j, k) in [(0, 2), (1, 0), (2, 1)] {
-        let (a, b) = (&plain.effects[j].estimates, &swapped.effects[k].estimates);
+        let (a, b) = (&plain[j].effect, &swapped[k].effect);
         assert!((a.first_order.estimate - b.first_order.estimate).abs() < 0.01);
         assert!((a.total.estimate - b.total.estimate).abs() < 0.01);
     }
@@ -129,8 +117,8 @@ proptest! {
     #[test]
     fn offsets_and_scales_of_any_size_leave_the_indices(exponent in -60i32..60, offset in -1e3f64..1e3) {
         let scale = 2f64.powi(exponent);
-        let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 256));
-        let changed = flat(&indices(&Changed::new(scale, offset * scale, [0, 1, 2]), 256));
+        let plain = flat(&indices(Changed::new(1.0, 0.0, [0, 1, 2]), 256));
+        let changed = flat(&indices(Changed::new(scale, offset * scale, [0, 1, 2]), 256));
         // An offset of up to 1e3 rounds outputs of size 10 to 1e-13, and little of it averages out over 256 points.
         prop_assert!(gap(&plain, &changed) < 1e-10);
     }

@@ -1,6 +1,6 @@
 //! Points of many kinds in the unit cube, as columns: independent ones, and others that only look independent.
 
-use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
+use apportion::design::{Design, DesignSettings, Rows, Sampler, SobolSequence};
 
 pub type Columns = Vec<Vec<f64>>;
 
@@ -8,14 +8,18 @@ pub type Columns = Vec<Vec<f64>>;
 pub type Sample = fn(usize, usize, u64) -> Columns;
 
 pub fn random(d: usize, n: usize, seed: u64) -> Columns {
-    let mut columns = vec![vec![0.0; n]; d];
-    RandomPoints::new(d, seed, 0).fill(0, &mut columns);
-    columns
+    sampled(Sampler::Random, d, n, seed)
 }
 
 pub fn latin(d: usize, n: usize, seed: u64) -> Columns {
+    sampled(Sampler::LatinHypercube, d, n, seed)
+}
+
+/// The matrix A of a design.
+fn sampled(sampler: Sampler, d: usize, n: usize, seed: u64) -> Columns {
+    let settings = DesignSettings { sampler, base_samples: n.max(2) as u64, replicates: 1, seed };
     let mut columns = vec![vec![0.0; n]; d];
-    LatinHypercube::new(d, n as u64, seed, 0).fill(0, &mut columns);
+    Design::new(settings, d, Rows::default()).unwrap().replicate(0).fill(0, &mut columns);
     columns
 }
 

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use apportion::Study;
-use apportion::analysis::study_setup;
 use apportion::result::StudyResult;
 use apportion_files::{ModelKind, StudyError, edited};
 use apportion_report::document::{DataFile, symbols};
@@ -149,7 +148,7 @@ fn percentages(subject: Option<Subject<'_>>) -> Value {
 
 /// What a page needs to offer a study for changes.
 fn description(study: &Study) -> Value {
-    let setup = study_setup(study);
+    let setup = study.setup();
     let kind = ModelKind::from_name(&setup.model);
     let inputs = kind.map(ModelKind::inputs).unwrap_or_default();
     let can_fix = matches!(setup.model.as_str(), "afm" | "expression");

@@ -6,8 +6,7 @@ mod output;
 use std::ops::Range;
 
 use apportion::model::{
-    Batch, Choice, Counter, CounterKind, EVALUATIONS, Flag, Input, LARGEST_ERROR, Model, Output, OutputSeries, RUNGS,
-    RowFailure, RunContext, Worker,
+    Batch, Choice, Counter, CounterKind, Flag, Input, Model, Output, OutputSeries, RowFailure, RunContext, Worker,
 };
 use apportion_base::quantity::Unit;
 use history::Histories;
@@ -90,7 +89,7 @@ pub struct AfmModel {
     /// Series, whose values come after the outputs in `which`.
     histories: Histories,
     flags: Vec<Flag>,
-    /// Numbers of rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
+    /// Numbers of rows by rung, in the order of [`Fidelity::ALL`]; then [`Counter::EVALUATIONS`] and [`Counter::LARGEST_ERROR`].
     counters: Vec<Counter>,
 }
 
@@ -105,8 +104,11 @@ impl AfmModel {
             .iter()
             .map(|f| Flag { name: f.name().into(), description: f.description().into(), warns: false })
             .collect();
-        let rungs = Fidelity::ALL.iter().map(|rung| (format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
-        let cost = [(EVALUATIONS.to_owned(), CounterKind::Sum), (LARGEST_ERROR.to_owned(), CounterKind::Maximum)];
+        let rungs = Fidelity::ALL.iter().map(|rung| (format!("{}{}", Counter::RUNGS, rung.name()), CounterKind::Sum));
+        let cost = [
+            (Counter::EVALUATIONS.to_owned(), CounterKind::Sum),
+            (Counter::LARGEST_ERROR.to_owned(), CounterKind::Maximum),
+        ];
         let counters = rungs.chain(cost).map(|(name, kind)| Counter { name: name.into(), kind }).collect();
         Self { scene, options, factors, outputs, which, histories: Histories::default(), flags, counters }
     }

@@ -1,7 +1,7 @@
 //! The catalogue of models with their inputs and outputs, for study files and for readers. One entry for each kind; the
 //! registry of the study files says how their tables become a model.
 
-use apportion::model::{Choice, Input, KnownAnswer, Output, known_inputs, known_output};
+use apportion::model::{Choice, Input, KnownAnswer, KnownFunction, Output};
 use apportion_afm::model::{afm_choices, afm_inputs, afm_outputs};
 
 /// A model that a study can name, and its description without a study.
@@ -77,7 +77,7 @@ impl ModelKind {
     /// model whose inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
         match self.known {
-            Some(answer) => known_inputs(&answer.default_function()),
+            Some(answer) => answer.default_function().model_inputs(),
             None if self == Self::AFM => afm_inputs(),
             None => Vec::new(),
         }
@@ -86,7 +86,7 @@ impl ModelKind {
     /// Returns the outputs, the default one first; none of a model whose outputs a study names.
     pub fn outputs(self) -> Vec<Output> {
         match self.known {
-            Some(_) => vec![known_output()],
+            Some(_) => vec![KnownFunction::output()],
             None if self == Self::AFM => afm_outputs(),
             None => Vec::new(),
         }

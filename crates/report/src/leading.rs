@@ -1,9 +1,9 @@
 //! Which factor leads, as far as the intervals show: the sentences at the top of documents.
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
+use apportion::StudyResult;
 use apportion::result::{Named, OutputResult, PairRecord};
-use apportion::uncertainty::{EffectEstimates, Estimate, Interval, LEVEL};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 use apportion_base::special::normal_quantile;
 use apportion_base::text::listed;
 
@@ -99,7 +99,7 @@ pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
 
 /// Returns the quantile for the interval of one of `count` estimates that are tested together.
 fn joint_quantile(count: usize) -> f64 {
-    normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * count as f64))
+    normal_quantile(1.0 - (1.0 - Interval::LEVEL) / (2.0 * count as f64))
 }
 
 /// Returns the measure by which factors of an output are ranked.
@@ -198,7 +198,9 @@ pub(super) fn lead(view: &OutputView<'_>) -> Vec<String> {
     let series = view.series.iter().map(|series| series_answer(&view.values(series)));
     let mut lead = first_answers(series.collect());
     lead.extend(match view.outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => first_answers(view.outputs.iter().map(|output| answer(output)).collect()),
+        ..StudyResult::MIN_OUTPUTS_TOGETHER => {
+            first_answers(view.outputs.iter().map(|output| answer(output)).collect())
+        }
         _ => answer_on_all(view),
     });
     lead.push(precision_sentence(view));

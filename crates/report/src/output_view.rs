@@ -1,6 +1,6 @@
 //! Some of the outputs of a result, as the subject of a document or a section, and access to their indices.
 
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
 use apportion::result::{Named, OutputResult, SeriesRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
 

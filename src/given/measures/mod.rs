@@ -12,7 +12,6 @@ use std::collections::BTreeMap;
 
 use density::OutputDistribution;
 use distances::distances;
-pub use hsic::MAX_ROWS as MAX_ROWS_OF_KERNELS;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -73,7 +72,7 @@ pub struct Measured {
     pub estimate: Estimate,
     /// The probability of a measure at least as large for an input without influence; `None` if rows are not
     /// independent draws (those of nets and Latin hypercubes are more even, and p-values would be far too large), or
-    /// the input has one value. From [`PERMUTATIONS`] permutations of the output; for the kernels from a gamma
+    /// the input has one value. From [`InputMeasures::PERMUTATIONS`] permutations of the output; for the kernels from a gamma
     /// distribution (Gretton et al. 2008).
     pub p_value: Option<f64>,
 }
@@ -90,22 +89,27 @@ pub struct InputMeasures {
 }
 
 impl InputMeasures {
+    /// Maximum number of rows that R2-HSIC uses.
+    pub const MAX_ROWS_OF_KERNELS: usize = hsic::MAX_ROWS;
+
+    /// p-values below this indicate influence.
+    pub const SIGNIFICANT: f64 = 0.05;
+
+    /// Number of permutations for a p-value: its resolution is 0.005.
+    pub const PERMUTATIONS: usize = 199;
+
     /// Returns one of them, if it exists.
     pub fn get(&self, measure: Measure) -> Option<Measured> {
         self.measures.get(&measure).copied()
     }
 
-    /// Returns whether an input without influence may have this measure: its p-value exceeds [`SIGNIFICANT`].
+    /// Returns whether an input without influence may have this measure: its p-value exceeds [`InputMeasures::SIGNIFICANT`].
     pub fn may_be_chance(&self, measure: Measure) -> bool {
-        self.get(measure).and_then(|measured| measured.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
+        self.get(measure)
+            .and_then(|measured| measured.p_value)
+            .is_some_and(|p_value| p_value > InputMeasures::SIGNIFICANT)
     }
 }
-
-/// Number of permutations for a p-value: its resolution is 0.005.
-pub const PERMUTATIONS: usize = 199;
-
-/// p-values below this indicate influence.
-pub const SIGNIFICANT: f64 = 0.05;
 
 /// Number of resamples for the interval of delta.
 const RESAMPLES: usize = 100;
@@ -126,7 +130,7 @@ const PERMUTED: usize = 4;
 
 /// Computes the measures of every output with respect to every input, for the columns that gave `indices`.
 ///
-/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, on at most [`MAX_ROWS_OF_KERNELS`]
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, on at most [`InputMeasures::MAX_ROWS_OF_KERNELS`]
 /// random rows. `seed` determines these rows, permutations, resamples, and the order of equal inputs in the spectrum.
 pub fn measures(
     inputs: &[Column],
@@ -299,7 +303,8 @@ impl<'a> Job<'a> {
         if let Some(chance) = chance.filter(|_| self.has_intervals()) {
             let delta = &mut values[Measure::Delta as usize];
             delta.estimate = self.delta(&input.classes, delta.estimate.estimate, chance, input.number);
-            if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
+            if let (Some(interval), Some(InputMeasures::SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value)
+            {
                 // If it is not distinguished from chance, it may be 0.
                 interval.low = 0.0;
             }
@@ -333,7 +338,7 @@ impl<'a> Job<'a> {
 
     /// Computes the measures of inputs with these ties and without influence.
     fn by_chance(&self, order: &Order, classes: &Classes) -> Chance {
-        let numbers = (0..PERMUTATIONS).into_par_iter();
+        let numbers = (0..InputMeasures::PERMUTATIONS).into_par_iter();
         let permutations = numbers.map(|number| {
             let mut random = self.random(1 << 16 | number as u64);
             let mut rows: Vec<usize> = (0..self.z.len()).collect();

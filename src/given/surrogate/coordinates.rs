@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::SurrogateRefusal;
 use crate::given::Column;
 use crate::given::order::Order;
-use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
+use crate::space::Distribution;
 use crate::surrogate::family::Family;
 use crate::surrogate::{Trial, trials};
 use apportion_base::sum::{range, rescaled};
@@ -125,9 +125,9 @@ fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f6
 
 /// Returns the probabilities of values below `x`, and of values up to `x`.
 fn probabilities(distribution: &Distribution, x: f64) -> (f64, f64) {
-    let low = search(SMALLEST_U, LARGEST_U, |u| distribution.quantile(u) < x);
-    let is_step = low + STEP < LARGEST_U && distribution.quantile(low + STEP) <= x;
-    (low, if is_step { search(low, LARGEST_U, |u| distribution.quantile(u) <= x) } else { low })
+    let low = search(Distribution::SMALLEST_U, Distribution::LARGEST_U, |u| distribution.quantile(u) < x);
+    let is_step = low + STEP < Distribution::LARGEST_U && distribution.quantile(low + STEP) <= x;
+    (low, if is_step { search(low, Distribution::LARGEST_U, |u| distribution.quantile(u) <= x) } else { low })
 }
 
 /// Returns the probability up to which `is_below` holds.

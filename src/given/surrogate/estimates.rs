@@ -1,7 +1,7 @@
 //! Indices and intervals from the contributions of all folds.
 
 use super::contributions::{FoldSums, To};
-use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms, left_square};
+use super::{Fitted, SurrogateIndices, SurrogateOutput, leading_terms, left_square};
 use crate::correction::{CorrectionError, EstimateWithInfluences};
 use crate::uncertainty::{Estimate, Interval};
 
@@ -35,7 +35,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
     SurrogateOutput {
         explained,
         unknown,
-        serves: explained >= MIN_EXPLAINED,
+        serves: explained >= SurrogateOutput::MIN_EXPLAINED,
         polynomials_of: (*polynomials_of).to_owned(),
         terms: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         leading_terms: leading.iter().map(|term| term.named(names)).collect(),

@@ -27,9 +27,6 @@ use crate::surrogate::net::Net;
 use crate::surrogate::{Effects, NamedTerm, cross_fitted, leading_terms};
 use crate::uncertainty::Estimate;
 
-/// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
-pub const MIN_EXPLAINED: f64 = 0.9;
-
 /// Parts of the table, each of which is corrected by an expansion of the others.
 const FOLDS: usize = 8;
 
@@ -89,7 +86,7 @@ pub struct SurrogateOutput {
     /// The rest, between 0 and 1: an index may exceed its estimate by this much, for any number of rows. The upper ends
     /// of the intervals contain it.
     pub unknown: f64,
-    /// Whether the surrogates explain at least [`MIN_EXPLAINED`]; if not, use the other estimates.
+    /// Whether the surrogates explain at least [`SurrogateOutput::MIN_EXPLAINED`]; if not, use the other estimates.
     pub serves: bool,
     /// The variable of the inputs in which the surrogates are polynomials, in words.
     pub polynomials_of: String,
@@ -101,6 +98,11 @@ pub struct SurrogateOutput {
     pub indices: Vec<SurrogateIndices>,
     /// Sum of the first-order indices over the inputs.
     pub sum_first_order: f64,
+}
+
+impl SurrogateOutput {
+    /// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
+    pub const MIN_EXPLAINED: f64 = 0.9;
 }
 
 /// The indices of one input by surrogates, nominally between 0 and 1 and not clamped.

@@ -7,12 +7,13 @@
 mod error;
 mod functions;
 mod parse;
-pub mod program;
+mod program;
 mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
 pub use functions::{OfOne, OfTwo};
-use program::{Program, Stack, TILE};
+pub use program::{Comparison, Stack, Step};
+use program::{Program, TILE};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 

@@ -31,9 +31,8 @@ use std::sync::Arc;
 pub use exact::{Basis, Exact, ExactIndices};
 pub use function::KnownInput;
 use function::{Made, Value};
-pub use model::{known_inputs, known_model, known_output};
 use parameters::ParameterReader;
-pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
+pub use parameters::{ParameterError, ParameterInfo, ParameterValue};
 
 use apportion_base::quantity::Domain;
 

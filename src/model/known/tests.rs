@@ -5,6 +5,7 @@ use std::f64::consts::{E, PI};
 use serde_json::Value;
 
 use super::exact::relative_variance_of_exponential;
+use super::parameters::MAX_INPUTS;
 use super::*;
 
 /// Names with their numbers; one number is a number, others are lists.

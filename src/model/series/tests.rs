@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::OutputSeries;
 
 #[test]
 fn positions_are_finite_and_rise() {
@@ -27,12 +28,12 @@ fn a_series_is_chosen_whole_or_not_at_all() {
 
 #[test]
 fn names_of_items_are_read() {
-    assert_eq!(item_of_list("infected[12]"), Some(("infected", 12)));
-    assert_eq!(item_of_list("a[1][2]"), Some(("a[1]", 2)));
+    assert_eq!(OutputSeries::item_of_list("infected[12]"), Some(("infected", 12)));
+    assert_eq!(OutputSeries::item_of_list("a[1][2]"), Some(("a[1]", 2)));
     for name in ["y", "y[]", "[1]", "y[-1]", "y[1", "y[1]x", "y[99999999999999999999999]"] {
-        assert_eq!(item_of_list(name), None, "{name}");
+        assert_eq!(OutputSeries::item_of_list(name), None, "{name}");
     }
-    let items = |header: &str| items_of_header(header).map(Iterator::collect::<Vec<String>>);
+    let items = |header: &str| OutputSeries::items_of_header(header).map(Iterator::collect::<Vec<String>>);
     assert_eq!(items("y[2..4]"), Some(vec!["y[2]".to_owned(), "y[3]".to_owned()]));
     for header in ["y[2]", "y[4..2]", "y[2..2]", "[0..2]", "y[0..-2]", "y[0...2]", "y[0..99999999]", "y[..2]"] {
         assert_eq!(items(header), None, "{header}");

@@ -29,7 +29,7 @@ pub struct OutputDistribution {
     pub min: f64,
     /// Largest value.
     pub max: f64,
-    /// Quantiles at [`PERCENTS`], of type 8 of Hyndman and Fan (1996).
+    /// Quantiles from 0.1 to 99.9 %, of type 8 of Hyndman and Fan (1996).
     pub quantiles: Vec<QuantileRecord>,
     /// Histogram; `null` without variance.
     pub histogram: Option<Histogram>,
@@ -125,7 +125,7 @@ impl OutputDistribution {
         self.count as f64 * percent.min(100.0 - percent) >= 100.0
     }
 
-    /// Returns the quantile at a percentage of [`PERCENTS`].
+    /// Returns the quantile at a percentage, if it is one of [`quantiles`](Self::quantiles).
     pub fn quantile(&self, percent: f64) -> Option<f64> {
         self.quantiles.iter().find(|q| q.percent == percent).map(|q| q.value)
     }

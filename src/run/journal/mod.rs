@@ -20,7 +20,7 @@ use std::time::Duration;
 pub use error::{JournalError, JournalProblem};
 pub use format::{Contents, read_journal};
 pub(super) use format::{Reader, record, write_record};
-pub use identity::differences;
+pub(crate) use identity::differences;
 use serde_json::Value;
 
 use super::RowBlock;

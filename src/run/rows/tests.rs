@@ -5,7 +5,8 @@ use super::*;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, FunctionModel, Model, Output, RowFailure, RunContext, Worker};
 use crate::run::journal::read_journal_file;
-use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
+use crate::run::tests::run;
+use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals};
 use crate::space::{Distribution, Factor, Space};
 use apportion_base::quantity::Unit;
 

@@ -2,7 +2,7 @@
 //!
 //! A design is in the open unit cube; each coordinate becomes a value by the inverse of the factor's cumulative
 //! distribution function. Every distribution is checked when it is created: after that, every quantile for `u` in
-//! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
+//! [[`Distribution::SMALLEST_U`], [`Distribution::LARGEST_U`]], the mean and the standard deviation are finite.
 //!
 //! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its
 //! entries for study files; one line in the list of families below; one case in `tests/oracle/distributions.py`. The
@@ -49,11 +49,6 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use values::Values;
 
 use apportion_base::quantity::Unit;
-
-/// The smallest `u` at which quantiles are guaranteed to be finite, 2^-64.
-pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
-/// The largest `u` below 1, 1 - 2^-53.
-pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// Imports for the file of a family.
 mod prelude {
@@ -132,9 +127,15 @@ families! {
 }
 
 impl Distribution {
+    /// The smallest `u` at which quantiles are guaranteed to be finite, 2^-64.
+    pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
+
+    /// The largest `u` below 1, 1 - 2^-53.
+    pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
+
     /// Returns the quantile (the inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
     ///
-    /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly so
+    /// Finite from [`Distribution::SMALLEST_U`] to [`Distribution::LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly so
     /// for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions,
     /// otherwise up to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order.
     /// Outside (0, 1) the result has no meaning, but there is no panic.
@@ -285,7 +286,8 @@ impl Distribution {
     /// Refuses a distribution that has no variance, or overflows within the guaranteed range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
         self.family().refuse_infinite_variance()?;
-        let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
+        let figures =
+            [self.quantile(Distribution::SMALLEST_U), self.quantile(Distribution::LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),
             false => Err(error::overflow(self.name())),

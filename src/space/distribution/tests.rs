@@ -1,5 +1,6 @@
 //! Tests of the properties of distributions except their numbers, which `tests/distributions.rs` checks.
 
+use crate::space::Distribution;
 use DistributionError as Error;
 use proptest::prelude::*;
 use student_t::StudentT;
@@ -163,24 +164,28 @@ fn json_holds_the_name_and_the_parameters_as_given() {
 fn discrete_values_have_their_exact_shares() {
     let grades = made(Distribution::discrete(&[3.0, 1.0, 2.0, 9.0], Some(&[1.0, 2.0, 1.0, 0.0])));
     let below_half = 0.5f64.next_down();
-    let at = [SMALLEST_U, below_half, 0.5, 0.75f64.next_down(), 0.75, LARGEST_U].map(|u| grades.quantile(u));
+    let at = [Distribution::SMALLEST_U, below_half, 0.5, 0.75f64.next_down(), 0.75, Distribution::LARGEST_U]
+        .map(|u| grades.quantile(u));
     assert_eq!(at, [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
     assert_eq!((grades.mean(), grades.sd(), grades.support()), (1.75, 0.6875f64.sqrt(), (1.0, 3.0)));
     let even = made(Distribution::discrete(&[5.0; 7], None));
-    assert_eq!((even.quantile(LARGEST_U), even.sd()), (5.0, 0.0));
+    assert_eq!((even.quantile(Distribution::LARGEST_U), even.sd()), (5.0, 0.0));
 }
 
 #[test]
 fn whole_numbers_and_categories_have_their_exact_shares() {
     let die = made(Distribution::integer(1.0, 6.0));
-    assert_eq!([SMALLEST_U, (1.0f64 / 6.0).next_down(), 0.5, LARGEST_U].map(|u| die.quantile(u)), [1.0, 1.0, 4.0, 6.0]);
+    assert_eq!(
+        [Distribution::SMALLEST_U, (1.0f64 / 6.0).next_down(), 0.5, Distribution::LARGEST_U].map(|u| die.quantile(u)),
+        [1.0, 1.0, 4.0, 6.0]
+    );
     assert_eq!((die.mean(), die.sd(), die.support()), (3.5, (35.0f64 / 12.0).sqrt(), (1.0, 6.0)));
     assert_eq!(die.levels().map(|levels| levels.len()), Some(6));
     for (value, u) in die.levels().unwrap_or_default() {
         assert_eq!(die.quantile(u), value);
     }
     let many = made(Distribution::integer(-1e15, 1e15));
-    assert_eq!((many.levels(), many.quantile(LARGEST_U), many.quantile(0.5)), (None, 1e15, 0.0));
+    assert_eq!((many.levels(), many.quantile(Distribution::LARGEST_U), many.quantile(0.5)), (None, 1e15, 0.0));
     let probe = made(Distribution::categorical(&["x", "y", "z"], Some(&[5.0, 1.0, 3.0]), Some(&[1.0, 2.0, 0.0])));
     assert_eq!((probe.label(probe.quantile(0.66)), probe.label(probe.quantile(0.67))), (Some("y"), Some("x")));
     assert_eq!(
@@ -254,7 +259,10 @@ fn numbers_with_units_are_exact_in_si() {
 
 #[test]
 fn a_column_has_the_bits_of_its_quantiles() {
-    let u: Vec<f64> = (0..257).map(|row| (f64::from(row) + 0.5) / 257.0).chain([SMALLEST_U, LARGEST_U]).collect();
+    let u: Vec<f64> = (0..257)
+        .map(|row| (f64::from(row) + 0.5) / 257.0)
+        .chain([Distribution::SMALLEST_U, Distribution::LARGEST_U])
+        .collect();
     for distribution in samples() {
         let mut column = vec![f64::NAN; u.len()];
         distribution.fill(&u, &mut column);
@@ -309,7 +317,7 @@ proptest! {
         ];
         for distribution in results.into_iter().flatten() {
             let (low, high) = distribution.support();
-            for u in [SMALLEST_U, 1e-9, 0.5, 1.0 - 1e-9, LARGEST_U] {
+            for u in [Distribution::SMALLEST_U, 1e-9, 0.5, 1.0 - 1e-9, Distribution::LARGEST_U] {
                 let value = distribution.quantile(u);
                 prop_assert!(value.is_finite() && (low..=high).contains(&value), "{:?} {}", distribution, u);
             }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::run::journal::{JournalProblem, differences, read_journal};
+use apportion::run::journal::{JournalProblem, read_journal};
 
 /// The header of a journal without anything in it.
 const HEADER: &[u8] = b"apportion journal\x01\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}";
@@ -29,8 +29,6 @@ fn read(bytes: &[u8]) {
             for block in &contents.blocks {
                 assert!(block.first.checked_add(block.rows(1)).is_some());
             }
-            assert!(differences(&contents.header, &contents.header).is_empty());
-            differences(&contents.header, &contents.header["identity"]);
         }
     }
 }

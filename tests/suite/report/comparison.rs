@@ -1,7 +1,7 @@
 //! Comparisons of two results.
 
+use apportion::Estimate;
 use apportion::result::{StudyResult, json};
-use apportion::uncertainty::difference;
 use apportion_report::comparison::{
     CompareError, ComparedIndex, ComparisonFile, NamedResult, compare_results, comparison_document,
 };
@@ -161,7 +161,7 @@ proptest! {
     /// Symmetric intervals: the half widths are those of independent errors, and never smaller than the larger one.
     #[test]
     fn half_widths_add_as_independent_errors(a in -1.0..1.0, b in -1.0..1.0, u in 0.0..0.5, v in 0.0..0.5) {
-        let d = difference(about(a, u), about(b, v));
+        let d = Estimate::difference(about(a, u), about(b, v));
         let (half, interval) = ((u * u + v * v).sqrt(), d.interval.unwrap());
         // Bounds are rounded to 1e-16 of numbers up to 1.5.
         prop_assert!((interval.high - d.estimate - half).abs() < 1e-14);

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::analysis::unlikely_outputs;
 use apportion::given::Column;
 use apportion::run::Store;
-use apportion::salib::{SalibError, SalibLayout, SalibProblem, recognise, salib_study};
+use apportion::salib::{SalibError, SalibLayout, SalibProblem, salib_study};
 use apportion::study::Study;
 use apportion::{Unlikely, Warning};
 use apportion_base::files::read_text;
@@ -98,7 +97,7 @@ fn of_design(arguments: &Arguments) -> anyhow::Result<Read> {
         0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
-    let unlikely = unlikely_outputs(&answers.study, &answers.store);
+    let unlikely = answers.study.unlikely_outputs(&answers.store);
     Ok(Read { study: answers.study, store: answers.store, unlikely })
 }
 
@@ -184,9 +183,11 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     // None if the file does not hold the inputs.
     let points = Some(&*inputs).filter(|inputs| !inputs.is_empty());
     let layout =
-        recognise(outputs[0].values.len(), &problem.members, stated_layout, points).map_err(|error| match error {
-            SalibError::Ambiguous { .. } => format!("{error}: choose one by --second-order or --first-order-only"),
-            SalibError::Invalid(problem) => problem,
+        SalibLayout::recognise(outputs[0].values.len(), &problem.members, stated_layout, points).map_err(|error| {
+            match error {
+                SalibError::Ambiguous { .. } => format!("{error}: choose one by --second-order or --first-order-only"),
+                SalibError::Invalid(problem) => problem,
+            }
         });
     let layout = layout.in_file(path)?;
     match points {

@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::design::Design;
 use apportion::estimate::{FirstOrder, Total};
 use apportion::model::RunContext;
-use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
+use apportion::run::{FailurePolicy, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, IndicesOf};
 use apportion::study::{Study, Target};
@@ -34,10 +34,7 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let mut pilot = None;
     if !study.subject().is_external() {
-        let model = study.model();
-        let context = RunContext::new(Some(on_signal()), say);
-        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
-        pilot = Some(Pilot::new(job, &context)?);
+        pilot = Some(Pilot::new(&study, &RunContext::new(Some(on_signal()), say))?);
     }
     print(&format!(
         "{}{}{}{}\nwill be written to {}: the page {}.html, tables, charts\n",
@@ -322,11 +319,10 @@ fn stopping(study: &Study) -> Option<String> {
     (!ends.is_empty()).then(|| format!("growth: runs are added, and all are used, until {}", ends.join(", or ")))
 }
 
-/// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind; and outputs that are kept.
+/// The columns of a block, and outputs that are kept.
 fn memory(study: &Study) -> Vec<String> {
     let (design, outputs) = (study.design(), study.model().outputs().len() as u64);
-    let columns = 2 * design.columns() as u64 + design.rows_per_point() * (outputs + 1);
-    let kilobytes = (columns * BLOCK * 8) as f64 / 1e3;
+    let kilobytes = study.bytes_per_thread() as f64 / 1e3;
     let mut lines = vec![format!("memory: about {kilobytes:.0} kB per thread, for any number of samples")];
     if study.needs_outputs() {
         let bytes = design.rows() as f64 * outputs as f64 * 8.0;

@@ -1,8 +1,8 @@
 //! `apportion models`: lists the models.
 
 use apportion::estimate::{Estimator, FirstOrder, Total};
-use apportion::model::{Basis, Choice, Exact, Input, KnownAnswer, KnownFunction, known_inputs};
-use apportion::study::nearest;
+use apportion::model::{Basis, Choice, Exact, Input, KnownAnswer, KnownFunction};
+use apportion_base::names::nearest;
 use apportion_files::{ModelKind, Problem, model_guide};
 use apportion_report::{significant, table};
 
@@ -129,7 +129,7 @@ fn function(answer: &'static KnownAnswer) -> String {
     }
     let mut inputs =
         table(&["factor", "distribution", "mean", "sd", "where no factor", "must be", "meaning"], &[0, 1, 5, 6]);
-    for input in known_inputs(&function) {
+    for input in function.model_inputs() {
         let Some(law) = &input.distribution else { continue };
         inputs.add_row([
             input.name.clone(),
@@ -154,7 +154,7 @@ fn exact(function: &KnownFunction) -> String {
     let mut text = format!("\nmean {mean}, variance {variance} ({basis})\n");
     let Some(indices) = indices else { return text + "no indices: the variance is 0\n" };
     let mut rows = table(&["factor", "first order S", "total ST"], &[0]);
-    for (input, (first, total)) in known_inputs(function).iter().zip(indices.first_order.iter().zip(&indices.total)) {
+    for (input, (first, total)) in function.model_inputs().iter().zip(indices.first_order.iter().zip(&indices.total)) {
         rows.add_row([input.name.clone(), significant(*first), significant(*total)]);
     }
     text.push_str(&format!("{rows}\n"));

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Resume;
-use apportion::analysis::inputs_in_words;
 use apportion::result::{OutputResult, StudyResult, read_result};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
@@ -245,7 +244,7 @@ fn is_empty(study: &Study, journal: &Path) -> bool {
 pub fn with_inputs(study: &Study, error: RunError) -> anyhow::Error {
     match &error {
         RunError::RowFailed { row, .. } => {
-            anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row))
+            anyhow!("{error}\nthe run's inputs: {}", study.inputs_in_words(*row))
         }
         _ => error.into(),
     }

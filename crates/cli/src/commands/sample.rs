@@ -14,7 +14,7 @@ use super::{DesignChanges, StudyArguments, counted, say};
 use crate::failure::{OfFile, bad_input};
 
 /// Most random points.
-const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
+const MAX_RANDOM: u64 = 2 * apportion::design::Design::MAX_POINTS;
 
 #[derive(clap::Args)]
 #[command(after_help = "FILE.manifest.json next to FILE describes the points: keep them together. When the outputs \

@@ -5,7 +5,7 @@ use std::time::Instant;
 use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
-use apportion::screening::{self, MAX_LEVELS, ScreeningDesign, ScreeningJob, ScreeningSettings};
+use apportion::screening::{self, ScreeningDesign, ScreeningJob, ScreeningSettings};
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
 
@@ -26,7 +26,7 @@ pub struct Arguments {
     #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory"])]
     design: String,
     /// Levels of the trajectory design's grid, an even number [default: 4]
-    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(ScreeningSettings::MAX_LEVELS)))]
     levels: Option<u32>,
     /// Seed of the points [default: the study's]
     #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]

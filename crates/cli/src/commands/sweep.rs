@@ -1,7 +1,8 @@
 //! `apportion sweep`: one factor at a time around the nominal point.
 
 use apportion::model::RunContext;
-use apportion::sweep::{MAX_POINTS, find};
+use apportion::sweep::Sweeps;
+use apportion::sweep::find;
 use apportion_report::sweep::{build_sweep, sweep_document};
 
 use super::output::{OutputArguments, deliver};
@@ -16,7 +17,7 @@ pub struct Arguments {
     #[arg(long = "factor", value_name = "NAME")]
     factors: Vec<String>,
     /// Points over the range of each factor
-    #[arg(long, value_name = "N", default_value_t = 101, value_parser = |text: &str| number_in(text, 2..=MAX_POINTS))]
+    #[arg(long, value_name = "N", default_value_t = 101, value_parser = |text: &str| number_in(text, 2..=Sweeps::MAX_POINTS))]
     points: usize,
     #[command(flatten)]
     output: OutputArguments,

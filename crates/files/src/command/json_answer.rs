@@ -1,8 +1,8 @@
 //! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
+use apportion::model::OutputSeries;
 use std::sync::LazyLock;
 
-use apportion::model::item_of_list;
 use apportion_base::text::{masked, shortened};
 use regex_lite::{Captures, Regex};
 use serde_json::Value;
@@ -17,7 +17,7 @@ struct Key<'a> {
 /// Iterates over the keys of an object with `outputs`, in order: `y[0]`, `y[1]` and so on are the items of a list `y`.
 fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
     outputs.chunk_by(|name, next| is_next_item(name, next)).flat_map(|names| {
-        let list = item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
+        let list = OutputSeries::item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
         // An item that does not start a list is named by itself.
         let length = if list.is_some() { names.len() } else { 1 };
         names.chunks(length).map(move |names| Key { list: list.map(|(list, _)| list), names })
@@ -26,7 +26,7 @@ fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
 
 /// Returns whether `next` is the item after `name` of the same list.
 fn is_next_item(name: &str, next: &str) -> bool {
-    match (item_of_list(name), item_of_list(next)) {
+    match (OutputSeries::item_of_list(name), OutputSeries::item_of_list(next)) {
         (Some((list, place)), Some((same, following))) => list == same && following == place + 1,
         _ => false,
     }

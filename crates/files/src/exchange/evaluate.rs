@@ -6,7 +6,8 @@ use std::io::Write;
 use apportion::model::{Batch, Output, RowFailure, RunContext};
 use apportion::run::{EvaluationStopped, TableRun};
 use apportion::space::{Factor, Space};
-use apportion::study::{Study, did_you_mean, nearest};
+use apportion::study::Study;
+use apportion_base::names::{did_you_mean, nearest};
 use thiserror::Error;
 
 use super::design_rows::factor_column;

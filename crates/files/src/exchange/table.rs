@@ -1,7 +1,7 @@
 //! A table of inputs and outputs, from any source.
 
 use apportion::given::{Column, TextColumn};
-use apportion::study::{did_you_mean, nearest};
+use apportion_base::names::{did_you_mean, nearest};
 
 use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};

@@ -1,8 +1,9 @@
 //! The tables `[afm]`, with choices by name and constants of the scene with their units, and `[function]`.
 
+use apportion::model::OutputSeries;
 use std::ops::RangeInclusive;
 
-use apportion::model::{KnownFunction, MAX_SERIES_VALUES, ParameterError, ParameterValue};
+use apportion::model::{KnownFunction, ParameterError, ParameterValue};
 use apportion::space::Space;
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
 use apportion_base::names::Named;
@@ -87,7 +88,7 @@ fn history(table: &Table) -> Result<AfmMoments, Problem> {
         match key.as_str() {
             "duration" => duration = positive("history.duration", "\"0.4 s\"", typed)?,
             "points" => {
-                let range = 2..=MAX_SERIES_VALUES as i64;
+                let range = 2..=OutputSeries::MAX_VALUES as i64;
                 points = integer("history.points", "a whole number from 2 to 10000", range, typed)? as usize;
             }
             other => return Err(unknown_key(other, ["duration", "points"])),

@@ -8,8 +8,8 @@ use std::fmt::Display;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
-use apportion::study::did_you_mean;
 use apportion_base::names::Named;
+use apportion_base::names::did_you_mean;
 use toml::Value;
 
 use super::at::At;

@@ -5,7 +5,8 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use apportion::study::{BuildError, did_you_mean};
+use apportion::study::BuildError;
+use apportion_base::names::did_you_mean;
 use apportion_base::quantity::UnitError;
 use thiserror::Error;
 

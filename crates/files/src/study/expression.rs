@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use apportion::model::{Expression, ExpressionProblem, Input, Symbol};
 use apportion::space::Space;
-use apportion::study::did_you_mean;
+use apportion_base::names::did_you_mean;
 use apportion_base::names::nearest;
 use apportion_base::quantity::{Quantity, Unit};
 use toml::Value;

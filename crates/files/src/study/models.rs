@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use apportion::model::{Expression, Input, known_inputs};
+use apportion::model::{Expression, Input, KnownFunction};
 use apportion::space::Space;
 use apportion_afm::{AfmHistory, AfmOutput, AfmSubject};
 
@@ -45,7 +45,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "function",
         span: |file| file.function.as_ref().map(At::span),
-        inputs: |reading| Ok(known_function(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
+        inputs: |reading| Ok(known_function(reading)?.as_ref().map_or_else(Vec::new, KnownFunction::model_inputs)),
         subject: function,
         guide: None,
     },

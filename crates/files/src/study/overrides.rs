@@ -1,6 +1,6 @@
 //! `--set KEY=VALUE`: changes to a study file from the command line, applied to its text before it is read.
 
-use apportion::study::did_you_mean;
+use apportion_base::names::did_you_mean;
 use apportion_base::names::nearest;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 

@@ -2,9 +2,10 @@
 //!
 //! `[factors]` becomes a list of `[[factor]]`, and `noise` one more factor; every value keeps its position in the file.
 
+use apportion::design::Design;
 use std::borrow::Cow;
 
-use apportion::design::{DesignError, MAX_FACTORS};
+use apportion::design::DesignError;
 use apportion::study::BuildError;
 use serde::Deserialize;
 use toml::Spanned;
@@ -24,7 +25,7 @@ pub(super) fn study_file(context: &Context) -> Result<StudyFile, Fault> {
     let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
     join_factors(context, &mut file)?;
     // Before any of them is processed.
-    if let Some(first) = file.factor.get(MAX_FACTORS) {
+    if let Some(first) = file.factor.get(Design::MAX_FACTORS) {
         let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });
         return Err(context.fault(first.span(), problem.into()));
     }

@@ -3,9 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use apportion::model::{
-    Expression, ExpressionModel, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
-};
+use apportion::model::{Expression, ExpressionModel, KnownFunction, Model, Output, ParameterValue};
 use apportion::space::Space;
 use apportion::study::Subject;
 use apportion_base::quantity::{Quantity, Unit};
@@ -116,15 +114,15 @@ impl Subject for KnownSubject {
     }
 
     fn model(&self, space: &Space) -> Arc<dyn Model> {
-        let inputs = known_inputs(&self.function);
+        let inputs = self.function.model_inputs();
         let base = inputs.iter().map(|input| input.nominal).collect();
         let factors = space.factors().iter();
         let factors = factors.filter_map(|factor| inputs.iter().position(|input| input.name == factor.name));
-        Arc::new(known_model(self.function.clone(), base, factors.collect()))
+        Arc::new(self.function.clone().model(base, factors.collect()))
     }
 
     fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
-        let inputs = known_inputs(&self.function);
+        let inputs = self.function.model_inputs();
         let factors = space.factors().iter().map(|factor| (&factor.name, Some(factor.distribution())));
         let is_default = factors.eq(inputs.iter().map(|input| (&input.name, input.distribution.as_ref())));
         let indices = self.function.exact().indices.filter(|_| is_default)?;
@@ -143,7 +141,7 @@ impl Subject for KnownSubject {
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        let inputs = known_inputs(&self.function).into_iter();
+        let inputs = self.function.model_inputs().into_iter();
         let fixed = inputs.filter(|input| space.factors().iter().all(|factor| factor.name != input.name));
         fixed.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
     }

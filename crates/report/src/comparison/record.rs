@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use apportion::result::{FactorDistribution, FactorRecord, Named, OutputResult, StudyResult};
-use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -113,7 +113,7 @@ pub struct ComparedIndex {
 impl ComparedIndex {
     /// Compares the index `a` in A with the index `b` in B.
     pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
-        let difference = a.zip(b).map(|(a, b)| difference(a, b));
+        let difference = a.zip(b).map(|(a, b)| Estimate::difference(a, b));
         let differs = difference.and_then(|Estimate { estimate, interval }| {
             interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && estimate.abs() > ROUNDING)
         });

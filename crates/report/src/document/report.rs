@@ -1,6 +1,6 @@
 //! The content of a command's document, and its conversion to a document.
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
+use apportion::StudyResult;
 use apportion::result::{FactorRecord, StudyRecord, StudySetup, ValidityRecord};
 
 use super::{DataFile, Document, Figure, Part, Section, Table, UNNUMBERED, figures_mut};
@@ -158,7 +158,7 @@ impl Report<'_> {
         endings.sort_unstable();
         endings.dedup();
         let stems = file_stems(&self.name, &names, &endings);
-        let are_many = names.len() >= MIN_OUTPUTS_TOGETHER;
+        let are_many = names.len() >= StudyResult::MIN_OUTPUTS_TOGETHER;
         let mut sections = Vec::new();
         for ((number, output), stem) in (1..).zip(std::mem::take(&mut self.outputs)).zip(stems) {
             let mut parts: Vec<Part> = Part::warnings(output.warnings).into_iter().collect();

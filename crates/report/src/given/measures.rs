@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use apportion::given::{InputMeasures, MAX_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS, SIGNIFICANT};
+use apportion::given::{InputMeasures, Measure, NoVariance};
 
 use super::record::GivenFile;
 use crate::document::{Part, Section, Table};
@@ -71,17 +71,18 @@ pub(crate) fn agreement(output: &str, inputs: &[InputMeasures], measures: &[Meas
 /// Tabulates the `measures` of an output, a row for each input or factor, named by `what`.
 pub(crate) fn table(output: &str, (what, inputs): (&'static str, &[InputMeasures]), measures: &[Measure]) -> Table {
     let has_kernels = measures.contains(&Measure::Hsic);
+    let by_permutations = format!("by {} permutations of the output", InputMeasures::PERMUTATIONS);
     let chance = match (measures == [Measure::Hsic], has_kernels) {
         (true, _) => "by a gamma distribution".to_owned(),
-        (false, true) => format!("by {PERMUTATIONS} permutations of the output, of R2-HSIC by a gamma distribution"),
-        (false, false) => format!("by {PERMUTATIONS} permutations of the output"),
+        (false, true) => format!("{by_permutations}, of R2-HSIC by a gamma distribution"),
+        (false, false) => by_permutations,
     };
     let article = if what == "input" { "an" } else { "a" };
     let mut values = inputs.iter().flat_map(|of| of.measures.values());
     let mut caption = if values.clone().any(|value| value.p_value.is_some()) {
         format!(
             "In brackets: the value that {article} {what} without influence reaches in more than {:.0} of 100 tables, {chance}.",
-            100.0 * SIGNIFICANT
+            100.0 * InputMeasures::SIGNIFICANT
         )
     } else {
         "The rows are not independent draws, so there are no p-values.".to_owned()
@@ -90,7 +91,8 @@ pub(crate) fn table(output: &str, (what, inputs): (&'static str, &[InputMeasures
         caption.push_str(" Delta has its 95 % interval.");
     }
     if has_kernels {
-        caption.push_str(&format!(" R2-HSIC uses at most {MAX_ROWS_OF_KERNELS} rows, drawn at random."));
+        caption
+            .push_str(&format!(" R2-HSIC uses at most {} rows, drawn at random.", InputMeasures::MAX_ROWS_OF_KERNELS));
         if inputs.iter().any(|of| of.get(Measure::Hsic).is_none()) {
             caption.push_str(" It is empty where these rows have one value only.");
         }

@@ -1,8 +1,8 @@
 //! The result file of given data.
 
 use apportion::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, OutputIndices, PointSet,
-    SurrogateOutput, SurrogateRefusal, Surrogates, TextColumn,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, OutputIndices, PointSet, SurrogateOutput,
+    SurrogateRefusal, Surrogates, TextColumn,
 };
 use apportion::result::OutputDistribution;
 use apportion_base::quantity::{Unit, Unlikely};
@@ -147,7 +147,7 @@ fn surrogate_record(result: &SurrogateResult) -> GivenSurrogateRecord {
         rows: fitted.map(|all| all.rows as u64),
         folds: fitted.map(|all| all.folds as u64),
         distributions: fitted.map(|all| if all.given_distributions { "given" } else { "columns" }.to_owned()),
-        least_explained: MIN_EXPLAINED,
+        least_explained: SurrogateOutput::MIN_EXPLAINED,
     }
 }
 

@@ -1,13 +1,13 @@
 //! The sentences of a result from given data.
 
-use apportion::given::{GivenIndices, MIN_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
+use apportion::given::{GivenIndices, OutputIndices, PointSet, SurrogateOutput};
 
 use super::SurrogateResult;
 use crate::format::fixed;
 
 pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
-    let bins = bins_for(indices.rows);
+    let bins = indices.bins();
     let binned = match indices.points {
         PointSet::Independent => {
             format!("binned: variance of lines in {bins} bins of equal probability, less that of noise")
@@ -127,7 +127,7 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
             "the surrogate is not used: it explains only {} of the variance of rows that it was not fitted to, and {} are \
              needed. Read the first-order indices by ranks and bins; there are no total indices",
             percent(surrogate.explained.max(0.0)),
-            percent(MIN_EXPLAINED)
+            percent(SurrogateOutput::MIN_EXPLAINED)
         ));
     }
     for index in output.indices.iter().flatten() {

@@ -1,6 +1,6 @@
 //! Overview of many outputs: a map of factors and outputs, the bars of all outputs together, and a series along its axis.
 
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
 use apportion::result::{Named, OutputResult, SeriesRecord};
 use apportion::uncertainty::Estimate;
 

@@ -1,6 +1,6 @@
 //! The indices: first order with total, second order as a map of pairs, and their convergence during the run.
 
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
 use apportion::result::{Named, OutputResult, StageRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
 

@@ -7,7 +7,6 @@ mod parts;
 mod series;
 mod tables;
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::StudyResult;
 pub(crate) use tables::{FACTORS, IN_CSV};
 
@@ -66,7 +65,7 @@ fn report<'a>(view: &OutputView<'a>) -> Report<'a> {
         provenance: method::provenance(result),
         ..Report::default()
     };
-    if view.outputs.len() >= MIN_OUTPUTS_TOGETHER {
+    if view.outputs.len() >= StudyResult::MIN_OUTPUTS_TOGETHER {
         report.first.extend(overview::sections(view));
     } else if view.is_single_output() {
         report.first.extend(output::topics(view, 0, &stems[0]));

@@ -1,6 +1,6 @@
 //! The topics of the document on one output.
 
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
 use apportion::result::{Named, OutputResult, StudyResult, SurrogateTrial};
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_base::text::listed;

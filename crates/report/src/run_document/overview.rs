@@ -1,6 +1,6 @@
 //! The document on many outputs: an overview, and a table of every output.
 
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
 use apportion::result::Named;
 use apportion::uncertainty::Estimate;
 

@@ -2,7 +2,6 @@
 
 use std::mem::discriminant;
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyRecord, StudyResult, Warning};
 
 use crate::chart::Chart;
@@ -18,7 +17,7 @@ const SUFFIXES: [&str; 8] =
 
 /// Returns the prefixes of the files of the charts: of each output, if they are few, and of each series.
 pub(super) fn stems(view: &OutputView<'_>) -> (Vec<String>, Vec<String>) {
-    let is_many = view.outputs.len() >= MIN_OUTPUTS_TOGETHER;
+    let is_many = view.outputs.len() >= StudyResult::MIN_OUTPUTS_TOGETHER;
     // Charts of many outputs together have the names of a single series.
     let mut names: Vec<&str> =
         if is_many { vec!["outputs"] } else { view.outputs.iter().map(|output| output.name.as_str()).collect() };

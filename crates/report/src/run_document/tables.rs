@@ -1,10 +1,9 @@
 //! The tables of one output, of its values and its surrogate, and the CSV files, which hold more.
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
-use apportion::effect::IndexPair;
+use apportion::IndexPair;
+use apportion::NamedTerm;
 use apportion::given::Measure;
 use apportion::result::{EstimatorRecord, Named, OutputResult, PairRecord, RunMeasures, StudyResult, SurrogateRecord};
-use apportion::surrogate::NamedTerm;
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, DataFile, Part, Rows, Table, csv};
@@ -279,7 +278,7 @@ pub(super) fn together(
     let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
+        ..StudyResult::MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are not series".to_owned(),
     };

@@ -1,7 +1,8 @@
 //! A screening as a document, with its charts: mu* against sigma, and mu* with its intervals.
 
 use apportion::result::json;
-use apportion::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
+use apportion::screening::Screening;
+use apportion::screening::{Reading, ScreenedFactor, ScreenedOutput};
 use apportion::uncertainty::Estimate;
 use apportion_base::text::listed;
 
@@ -106,7 +107,7 @@ fn fixable(output: &ScreenedOutput) -> String {
     format!(
         "Could be fixed for {}: {names} (the upper bound of μ* below {} % of the largest μ*, by at least half of the effects).",
         name(&output.name),
-        100.0 * FIXABLE
+        100.0 * Screening::FIXABLE
     )
 }
 
@@ -185,7 +186,7 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let caption = format!(
         "Mean size μ* of the elementary effects per full range of each factor. A factor could be fixed where the upper \
          bound of μ* lies below {} % of the largest μ*. {}{}",
-        100.0 * FIXABLE,
+        100.0 * Screening::FIXABLE,
         leader(output),
         not_drawn(output.factors.len(), MAX_BARS)
     );

@@ -3,11 +3,11 @@
 //! Format `apportion-screening`, version 1, described key by key in `docs/screening-format.md`. Later versions of the
 //! program only add keys. A number that does not exist is `null`.
 
-use apportion::analysis::{study_setup, validity};
 use apportion::design::Sampler;
 use apportion::model::Model;
 use apportion::result::{RunFacts, StudySetup, ValidityRecord};
-use apportion::screening::{FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign};
+use apportion::screening::ScreeningSettings;
+use apportion::screening::{ScreenedOutput, Screening, ScreeningDesign};
 use apportion::space::Distribution;
 use apportion::study::Study;
 use serde::{Deserialize, Serialize};
@@ -71,10 +71,10 @@ pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, 
     ScreeningFile {
         format: "apportion-screening".to_owned(),
         version: 1,
-        study: study_setup(study),
+        study: study.setup(),
         provenance: provenance(screening, facts),
         outputs: screening.outputs.clone(),
-        validity: validity(model.flags().iter().zip(screening.flags.iter().copied()), screening.runs),
+        validity: ValidityRecord::of_flags(model.flags().iter().zip(screening.flags.iter().copied()), screening.runs),
         notes: notes(study),
     }
 }
@@ -93,7 +93,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         design: settings.design.name().to_owned(),
         sampler: sampler.map(|sampler| sampler.name().to_owned()),
         levels,
-        shortest_step: sampler.map(|_| MIN_STEP),
+        shortest_step: sampler.map(|_| ScreeningSettings::MIN_STEP),
         trajectories: settings.trajectories,
         parts,
         seed: settings.seed,
@@ -102,7 +102,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         threads: facts.threads,
         wall_seconds: facts.wall_seconds,
         interval: format!("95 % t-interval (delete-one jackknife) from {parts} independent {what}"),
-        fixable_below: FIXABLE,
+        fixable_below: Screening::FIXABLE,
     }
 }
 

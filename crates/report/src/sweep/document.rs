@@ -1,6 +1,6 @@
 //! Sweeps as a document, with their charts: every output against each factor, and the effect of each factor on each output.
 
-use apportion::analysis::MIN_OUTPUTS_TOGETHER;
+use apportion::StudyResult;
 use apportion::result::json;
 use apportion::sweep::{NominalOutput, Sweep, SweptOutput};
 use apportion_base::text::listed;
@@ -28,7 +28,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     let failed = Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts };
     parts.extend(file.sweeps.iter().any(|sweep| !gap_lines(sweep).is_empty()).then_some(failed));
     parts.extend(curves.into_iter().zip(&file.sweeps).map(|(figure, sweep)| match file.nominal.len() {
-        ..MIN_OUTPUTS_TOGETHER => figure.into(),
+        ..StudyResult::MIN_OUTPUTS_TOGETHER => figure.into(),
         _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
     }));
     Report {

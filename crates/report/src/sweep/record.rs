@@ -3,7 +3,6 @@
 //! Format `apportion-sweep`, version 2, described key by key in `docs/sweep-format.md`. Later versions of the program
 //! only add keys. A number that does not exist is `null`.
 
-use apportion::analysis::{study_setup, validity};
 use apportion::model::Model;
 use apportion::result::{StudySetup, ValidityRecord};
 use apportion::study::Study;
@@ -70,7 +69,7 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFil
     SweepFile {
         format: "apportion-sweep".to_owned(),
         version: 2,
-        study: study_setup(study),
+        study: study.setup(),
         provenance: SweepProvenance {
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             model_runs: sweeps.runs,
@@ -83,6 +82,6 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFil
             .collect(),
         nominal: sweeps.nominal,
         sweeps: sweeps.sweeps,
-        validity: validity(model.flags().iter().zip(sweeps.flags), sweeps.runs),
+        validity: ValidityRecord::of_flags(model.flags().iter().zip(sweeps.flags), sweeps.runs),
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::space::distribution::{LARGEST_U, SMALLEST_U};
+use crate::space::Distribution;
 
 #[test]
 fn a_handful_of_steps_is_enough() {
@@ -9,9 +9,9 @@ fn a_handful_of_steps_is_enough() {
         let side = Side::new(a, b);
         let tail = (0..64).map(|power| 0.5f64.powi(power));
         let body = (1..100).map(|step| f64::from(step) / 100.0);
-        for part in tail.chain(body).chain([LARGEST_U]) {
+        for part in tail.chain(body).chain([Distribution::LARGEST_U]) {
             let p = part * side.mass;
-            if p < SMALLEST_U {
+            if p < Distribution::SMALLEST_U {
                 continue;
             }
             let (_, steps) = side.distance(p);

@@ -2,7 +2,6 @@
 //!
 //! Format `apportion-extremes`, version 2, described key by key in `docs/extremes.md`. Later versions only add keys.
 
-use apportion::analysis::study_setup;
 use apportion::result::{StudySetup, json};
 use apportion::study::Study;
 use apportion_report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
@@ -39,7 +38,7 @@ pub fn extremes_document(study: &Study, seed: u64, map: Extremes) -> Document {
     let file = &ExtremesFile {
         format: "apportion-extremes".to_owned(),
         version: 2,
-        study: study_setup(study),
+        study: study.setup(),
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed,
         map,

@@ -7,12 +7,13 @@ mod map;
 mod points;
 mod precise;
 
+use apportion::model::Counter;
 use std::any::Any;
 use std::cmp::Reverse;
 use std::sync::atomic::AtomicBool;
 
 use afm_second::AfmSecond;
-use apportion::model::{Batch, GiveUp, LARGEST_ERROR, Model, RowFailure, RunContext, Worker};
+use apportion::model::{Batch, GiveUp, Model, RowFailure, RunContext, Worker};
 use apportion::run::{Progress, RunError, run_each};
 use apportion::space::Space;
 use apportion::study::{Study, Subject};
@@ -161,7 +162,7 @@ fn evaluate(
     let values: Vec<Result<f64, RowFailure>> = values.collect();
     let raised = model.flags().iter().zip(batch.flags()).filter(|(_, raised)| **raised > 0);
     let flags: Vec<&str> = raised.map(|(flag, _)| &*flag.name).collect();
-    let counter = model.counters().iter().position(|counter| counter.name == LARGEST_ERROR);
+    let counter = model.counters().iter().position(|counter| counter.name == Counter::LARGEST_ERROR);
     let error_estimate = counter.and_then(|number| batch.counts().values().nth(number));
     let answered: Vec<Option<f64>> = values.iter().map(|value| value.as_ref().ok().copied()).collect();
     let references = match second {

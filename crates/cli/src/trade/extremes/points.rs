@@ -1,6 +1,7 @@
 //! The points at which the model is evaluated: at the bounds of the factors and past them.
 
-use apportion::space::{Factor, LARGEST_U, SMALLEST_U, Space};
+use apportion::Distribution;
+use apportion::space::{Factor, Space};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -41,7 +42,7 @@ impl Reach {
     /// Takes the bounds of the distribution, or the outermost values of a design.
     fn new(factor: &Factor) -> Self {
         let mut outermost = [0.0; 2];
-        factor.fill_si(&[SMALLEST_U, LARGEST_U], &mut outermost);
+        factor.fill_si(&[Distribution::SMALLEST_U, Distribution::LARGEST_U], &mut outermost);
         let (low, high) = factor.distribution().support();
         let [low, high] = [(low, outermost[0]), (high, outermost[1])]
             .map(|(bound, outermost)| if bound.is_finite() { factor.unit().to_si(bound) } else { outermost });

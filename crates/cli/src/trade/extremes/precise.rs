@@ -1,8 +1,7 @@
 //! Evaluation of a formula in 320 bits, and its rounding error in doubles: to find where doubles are wrong.
 
 use apportion::Expression;
-use apportion::model::expression::program::{Stack, Step};
-use apportion::model::expression::{OfOne, OfTwo};
+use apportion::model::expression::{OfOne, OfTwo, Stack, Step};
 use astro_float_num::RoundingMode::ToEven;
 use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 

@@ -9,7 +9,6 @@ mod document;
 
 use std::sync::atomic::AtomicBool;
 
-use apportion::analysis::study_setup;
 use apportion::result::{StudyResult, StudySetup};
 use apportion::run::{RunError, threads_in_force};
 use apportion::study::{Study, SurrogateChoice, Target};
@@ -252,7 +251,7 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
     Ok(Comparison {
         format: "apportion-trade".to_owned(),
         version: 1,
-        study: study_setup(job.study),
+        study: job.study.setup(),
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         threads: threads_in_force(job.threads),
         advice,

@@ -7,12 +7,12 @@ mod csv_rows;
 mod lines;
 mod npy;
 
+use apportion::model::OutputSeries;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufWriter, Cursor, Read, Seek, Write};
 use std::path::Path;
 
-use apportion::model::items_of_header;
 use apportion_base::files::read_opened;
 use apportion_base::names::{named, refused_name};
 use flate2::read::MultiGzDecoder;
@@ -268,7 +268,7 @@ impl<'a> RowWriter<'a> {
 fn expanded(names: &[String]) -> Vec<String> {
     let mut all = Vec::new();
     for name in names {
-        match items_of_header(name) {
+        match OutputSeries::items_of_header(name) {
             Some(items) => all.extend(items),
             None => all.push(name.clone()),
         }

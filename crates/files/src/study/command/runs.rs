@@ -3,8 +3,8 @@
 use std::path::{Component, Path, PathBuf};
 
 use apportion::space::Space;
-use apportion::study::did_you_mean;
 use apportion_base::files::read_text;
+use apportion_base::names::did_you_mean;
 use apportion_base::names::nearest;
 
 use super::{existing, path_scope};

@@ -2,7 +2,7 @@
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
-use apportion::uncertainty::{Interval, StandardError, t_interval};
+use apportion::uncertainty::Interval;
 use apportion_afm::history::{History, history};
 use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
@@ -154,7 +154,7 @@ impl<'a> ClaimContext<'a> {
         let value = sum::mean(&shares);
         let spread = sum::centred_product((&shares, value), (&shares, value));
         let error = (spread / (replicates * (replicates - 1.0))).sqrt();
-        let interval = t_interval(value, StandardError { error, freedom: replicates - 1.0 });
+        let interval = Interval::students_t(value, error, replicates - 1.0);
         let interval = interval.map(|i| Interval { low: i.low.max(0.0), high: i.high.min(1.0) });
         Ok(Share { value, interval })
     }
