@@ -44,7 +44,7 @@ impl Effect {
 
 /// The first-order and the total index of an effect, or what belongs to each.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "IndexPair_{T}"))]
 pub struct IndexPair<T> {
     /// First-order (of several factors: closed first-order) index.
     pub first_order: T,

@@ -9,7 +9,7 @@ use crate::uncertainty::{EffectEstimates, Estimate};
 
 /// The indices of a factor, a group or a subset, under its name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Named_{T}"))]
 pub struct Named<T> {
     /// The factor, the group, or the factors of the subset joined by " + ".
     #[serde(rename = "factor")]
