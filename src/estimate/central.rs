@@ -8,14 +8,6 @@ use apportion_base::sum::{mean, range, sums_by};
 ///
 /// Merged by the updates of Pebay (2008), "Formulas for robust, one-pass parallel computation of covariances and
 /// arbitrary-order statistical moments", Sandia report SAND2008-6212.
-///
-/// ```
-/// use apportion::CentralMoments;
-///
-/// let mut moments = CentralMoments::from_values(&[0.0, 0.0, f64::NAN, 0.0]);
-/// moments.merge(&CentralMoments::from_values(&[4.0]));
-/// assert_eq!((moments.count(), moments.mean(), moments.variance()), (4, Some(1.0), Some(3.0)));
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CentralMoments {
     n: u64,

@@ -43,14 +43,13 @@ impl Moments {
     /// Computes the moments of one block; `work` is reused between calls.
     ///
     /// ```
-    /// use apportion::estimate::{BlockOutputs, Indices, Moments, Workspace};
+    /// use apportion::estimate::{BlockOutputs, Moments, Total, Workspace};
     ///
     /// // y = x, sampled at every pair of 0, 1 and 0, 1: AB, which takes x from B, has the outputs of B.
     /// let (a, b) = ([0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
     /// let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
     /// let moments = Moments::of_block(block, &mut Workspace::default());
-    /// assert_eq!(Indices::from_moments(&moments)?.total, [1.0]);
-    /// # Ok::<(), apportion::Undefined>(())
+    /// assert_eq!(Total::Jansen1999.estimate(&moments, 0), 1.0);
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
         let BlockOutputs { a, b, ab, ba, paired } = outputs;

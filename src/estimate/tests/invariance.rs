@@ -117,6 +117,9 @@ fn central_moments_of_known_distributions() {
 
 #[test]
 fn central_moments_without_values_or_variance_say_so() {
+    let mut moments = CentralMoments::from_values(&[0.0, 0.0, f64::NAN, 0.0]);
+    moments.merge(&CentralMoments::from_values(&[4.0]));
+    assert_eq!((moments.count(), moments.mean(), moments.variance()), (4, Some(1.0), Some(3.0)));
     let none = CentralMoments::from_values(&[f64::NAN, f64::INFINITY]);
     assert_eq!((none.count(), none.mean(), none.variance(), none.range()), (0, None, None, None));
     assert_eq!((none.skewness(), none.excess_kurtosis()), (None, None));
