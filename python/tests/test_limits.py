@@ -57,7 +57,6 @@ def test_unknown_keywords_are_errors_whatever_their_value():
         ({"sed": 0}, "unknown keyword sed: did you mean seed"),
         ({"n_jobs": 0}, "unknown keyword n_jobs: did you mean threads, which run"),
         ({"second_ordr": False}, "did you mean second_order"),
-        ({"budget_runs": None}, "did you mean runs"),
         ({"target": 0.01}, "did you mean accuracy"),
         ({"nonsense_of_mine": None}, "expected one of outputs"),
     ]:

@@ -84,6 +84,6 @@ pub struct SurrogateRecord {
     /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
     pub plain: Vec<Named<IndexPair<Option<Estimate>>>>,
     /// The low-fidelity model used with them, if there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub low: Option<LowFidelityUse>,
 }

@@ -32,8 +32,8 @@ const MAX_ROWS: u64 = 1 << 22;
 /// Largest cost of a run, relative to the model itself, of a model that counts as cheaper.
 const CHEAPER: f64 = 0.5;
 
-/// Share of the squared error below which low-fidelity models need not go.
-const ENOUGH: f64 = 1.0 / 16.0;
+/// Squared error by the runs of a low-fidelity model, relative to that by the rows of the model, that needs no more runs.
+const MIN_ERROR_SHARE: f64 = 1.0 / 16.0;
 
 /// The studies of a low-fidelity model.
 pub(super) struct LowFidelityStudy<'a> {
@@ -211,7 +211,7 @@ impl<'a> LowFidelityRun<'a> {
         let is_possible =
             self.low.base_samples.is_none() && rows <= MAX_ROWS && points <= longest.points_per_replicate();
         let pays = errors.low_fidelity * (seconds + self.shared.seconds) > errors.model * low_seconds
-            && errors.low_fidelity > ENOUGH * errors.model;
+            && errors.low_fidelity > MIN_ERROR_SHARE * errors.model;
         (is_possible && pays).then_some(points)
     }
 

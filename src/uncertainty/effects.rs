@@ -25,23 +25,20 @@ pub struct EffectEstimates {
     pub share_total_interval: Option<Interval>,
     /// Total minus first-order index, the interaction of the factor with others: not negative, within the interval,
     /// unless an estimate is wrong. `None` for dependent factors.
-    #[serde(default)]
     pub interaction: Option<Estimate>,
     /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors';
     /// `None` for other effects than factors, and if errors are unknown or ranks were not
     /// requested. If several total indices are truly equal, any value is equally likely.
-    #[serde(default)]
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
-    #[serde(default)]
     pub probability_above_threshold: Option<f64>,
     /// Shapley effect of a factor, if requested: its share of the variance, for dependent factors too. Players are the
     /// factors, or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song,
     /// Nelson and Staum 2016).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub shapley: Option<Estimate>,
     /// Further indices of a factor, group or subset of dependent factors; `None` if factors are independent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub dependent: Option<DependentEstimates>,
 }
 

@@ -19,7 +19,6 @@ pub mod screening;
 mod study_sections;
 pub mod sweep;
 mod text_table;
-mod wording;
 
 pub use artefacts::{ArtefactError, Artefacts, Written};
 pub use atomic_write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};
@@ -30,7 +29,6 @@ pub use file_names::{ChartFormat, file_stems};
 pub use format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit};
 pub use output_view::Subject;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
-pub use run_document::{output_document, run_document};
+pub use run_document::{lines_to_repeat, output_document, run_document};
 pub use study_sections::inputs;
 pub use text_table::{TextTable, table};
-pub use wording::lines_to_repeat;

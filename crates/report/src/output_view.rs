@@ -1,11 +1,10 @@
 //! Some of the outputs of a result, as the subject of a document or a section, and access to their indices.
 
-use apportion::IndexPair;
 use apportion::result::{Named, OutputResult, SeriesRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
+use apportion::{IndexPair, Scaling};
 
 use crate::format::name;
-use crate::wording::weighting;
 
 /// A single output, or a series.
 #[derive(Clone, Copy, Debug)]
@@ -143,4 +142,12 @@ pub(crate) fn effects(output: &OutputResult) -> impl Iterator<Item = (&str, &Eff
 /// Returns the indices of the factor at this position in the study.
 pub(crate) fn effect_at(output: &OutputResult, factor: usize) -> Option<&EffectEstimates> {
     output.indices.as_ref()?.get(factor).map(|index| &index.effect)
+}
+
+/// Says how outputs are weighted against each other.
+fn weighting(scaling: Scaling) -> &'static str {
+    match scaling {
+        Scaling::Plain => "each output counts by its variance (Gamboa et al. 2014)",
+        Scaling::Standardised => "each output is divided by its standard deviation first, since their units differ",
+    }
 }

@@ -117,7 +117,7 @@ class _Walk:
                 self._leaf(value, path, above)
         elif isinstance(value, functools.partial):
             self.split(value.func, f"{path}.func", inside)
-            # Simple ones of the function itself are known, as those of journals of older versions are.
+            # Simple ones of the function itself are known.
             if above or not _are_words(value.args):
                 self.split(value.args, f"{path}.args", inside)
             for name, given in value.keywords.items():

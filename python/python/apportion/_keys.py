@@ -37,12 +37,11 @@ ANALYSIS = (
 TABLES = ("afm", "function", "expression", "fidelity", "dependence")
 # Keywords of a run, which `analyse` takes too.
 RUN = ("threads", "executor", "in_flight", "journal", "resume", "progress")
-# What other packages, and former versions of this one, call them.
+# What other packages call them.
 _OTHERS = {
     "N": "base_samples",
     "n": "base_samples",
     "n_samples": "base_samples",
-    "budget_runs": "runs",
     "budget": "max_time",
     "target": "accuracy",
     "calc_second_order": "second_order",

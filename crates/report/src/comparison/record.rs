@@ -69,7 +69,6 @@ pub struct ComparedOutput {
     /// Mean in A and in B, in `unit`; `null` where there is none.
     pub mean: [Option<f64>; 2],
     /// Its interval in A and in B; `null` where there is none.
-    #[serde(default)]
     pub mean_interval: [Option<Interval>; 2],
     /// Standard deviation in A and in B, in `unit`.
     pub sd: [Option<f64>; 2],

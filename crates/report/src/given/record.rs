@@ -26,7 +26,6 @@ pub struct GivenFile {
     /// Dependence between the inputs; `null` with fewer than two that vary.
     pub dependence: Option<Dependence>,
     /// How surrogates were fitted; `null` if they were not requested.
-    #[serde(default)]
     pub surrogate: Option<GivenSurrogateRecord>,
     /// The outputs.
     pub outputs: Vec<GivenOutputRecord>,
@@ -67,7 +66,6 @@ pub struct TableRecord {
     /// Why the rows are not considered independent draws, if so.
     pub points_reason: Option<String>,
     /// Columns that are not inputs because they hold text.
-    #[serde(default)]
     pub columns_left_out: Vec<TextColumn>,
 }
 
@@ -104,10 +102,8 @@ pub struct GivenOutputRecord {
     /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
     pub sum_first_order: Option<f64>,
     /// Indices by surrogates; `null` if they were not requested, or there are none.
-    #[serde(default)]
     pub surrogate: Option<SurrogateOutput>,
     /// Other measures, one entry per input; `null` if they were not requested, or there are none.
-    #[serde(default)]
     pub measures: Option<Vec<InputMeasures>>,
     /// Why there are no indices.
     pub reason: Option<String>,

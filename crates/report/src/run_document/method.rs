@@ -5,7 +5,6 @@ use apportion_base::text::capitalised;
 
 use crate::document::{Mark, Part, Table};
 use crate::format::{grouped, printed, round_significant, significant};
-use crate::wording::lines_to_repeat;
 
 /// Describes the cost of the run.
 pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
@@ -102,4 +101,24 @@ pub(super) fn provenance(result: &StudyResult) -> Vec<(&'static str, String)> {
         rows.push(("files of the model that a journal depends on", provenance.model_files.join(", ")));
     }
     rows
+}
+
+/// Returns the lines of a study that repeat a run with an accuracy, to the bit, in place of `accuracy`.
+pub fn lines_to_repeat(result: &StudyResult) -> Option<String> {
+    let (provenance, spending) = (&result.provenance, result.spending.as_ref()?);
+    let mut lines = match provenance.plain_rows {
+        0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
+        _ => format!("[design]\nruns = {}\n", provenance.model_runs),
+    };
+    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", spending.surrogate.name()));
+    if let [low] = &result.low_fidelity[..] {
+        lines.push_str("[fidelity]\n");
+        lines.push_str(&match spending.stated_low_fidelity {
+            0 => format!("low = [\"{}\"]\n", low.name),
+            1 => String::new(),
+            _ => format!("# keep only `{}` in `low`\n", low.name),
+        });
+        lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
+    }
+    Some(lines)
 }

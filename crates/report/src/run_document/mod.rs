@@ -8,6 +8,7 @@ mod series;
 mod tables;
 
 use apportion::result::StudyResult;
+pub use method::lines_to_repeat;
 pub(crate) use tables::{FACTORS, IN_CSV};
 
 use super::document::{Document, Report, ReportedStudy, Section};

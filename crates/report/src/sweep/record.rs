@@ -30,7 +30,6 @@ pub struct SweepFile {
     /// Rows on which the model's assumptions do not hold; these rows are used too.
     pub validity: Vec<ValidityRecord>,
     /// Warnings, in sentences.
-    #[serde(default)]
     pub warnings: Vec<String>,
 }
 
