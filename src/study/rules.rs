@@ -136,15 +136,14 @@ fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildErr
     if options.indices_of == IndicesOf::Groups {
         let groups = space.groups();
         let names: BTreeSet<&str> = space.factors().iter().map(|factor| factor.name.as_str()).collect();
-        let obstacle = match () {
-            () if groups.is_empty() => "in a study without groups",
-            () if groups.iter().any(|group| names.contains(group.name.as_str())) => {
-                "where a group has the name of a factor"
-            }
-            _ if space.noise().is_some() => "with [noise]",
-            _ => "",
+        let obstacle = if groups.is_empty() {
+            Some("in a study without groups")
+        } else if groups.iter().any(|group| names.contains(group.name.as_str())) {
+            Some("where a group has the name of a factor")
+        } else {
+            space.noise().map(|_| "with [noise]")
         };
-        if !obstacle.is_empty() {
+        if let Some(obstacle) = obstacle {
             return wrong("indices_of", format!("\"factors\" {obstacle}"), "\"groups\"");
         }
     }
