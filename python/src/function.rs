@@ -64,14 +64,14 @@ pub enum Caller {
 }
 
 /// How a function is asked: `function(columns)` of an array of (factors, rows) returns an array of (rows, outputs) and a list
-/// of (row, reason); `takes_its_time` where rows are better shared out in pieces that fit their cost.
+/// of (row, reason); `is_slow` where rows are better shared out in pieces that fit their cost.
 pub struct PythonModel {
     pub function: Py<PyAny>,
     pub outputs: Vec<Output>,
     pub series: Vec<OutputSeries>,
     pub factor_units: Vec<Unit>,
     pub caller: Caller,
-    pub takes_its_time: bool,
+    pub is_slow: bool,
 }
 
 impl PythonModel {
@@ -128,7 +128,7 @@ impl Model for PythonModel {
     fn concurrency(&self) -> Option<usize> {
         match self.caller {
             Caller::Here { workers, .. } => Some(workers),
-            Caller::There(_) => self.takes_its_time.then_some(1),
+            Caller::There(_) => self.is_slow.then_some(1),
         }
     }
 

@@ -15,12 +15,12 @@ const LOOK: Duration = Duration::from_millis(100);
 
 /// What a run tells while it goes on.
 #[derive(Default)]
-pub struct Told {
+pub struct ProgressState {
     progress: Mutex<Option<Progress>>,
     messages: Mutex<Vec<String>>,
 }
 
-impl Told {
+impl ProgressState {
     pub fn progress(&self, progress: Progress) {
         *self.progress.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
     }
@@ -75,7 +75,7 @@ impl Drop for End {
 pub fn attend<R: Send>(
     py: Python<'_>,
     duty: Duty,
-    told: &Told,
+    told: &ProgressState,
     listeners: &Listeners,
     work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {

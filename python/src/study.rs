@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 use crate::document::Document;
 use crate::errors::{failed, input, run as run_error, study as study_error};
 use crate::function::{Caller, PythonModel, Stop};
-use crate::run::{Duty, Listeners, Told, attend};
+use crate::run::{Duty, Listeners, ProgressState, attend};
 
 /// A checked study.
 #[pyclass(frozen)]
@@ -36,7 +36,7 @@ struct Function {
     version: String,
     /// Calls at a time from threads of the run; 0 to call it in this thread.
     workers: usize,
-    takes_its_time: bool,
+    is_slow: bool,
 }
 
 #[pymethods]
@@ -331,14 +331,14 @@ impl Study {
         function: Option<Function>,
         stop: &Stop,
         listeners: &Listeners,
-        work: impl FnOnce(&apportion::Study, &Arc<Told>) -> PyResult<Document> + Send,
+        work: impl FnOnce(&apportion::Study, &Arc<ProgressState>) -> PyResult<Document> + Send,
     ) -> PyResult<Document> {
         let (finished, events) = channel();
-        let told = Arc::new(Told::default());
+        let told = Arc::new(ProgressState::default());
         let first_error = Arc::new(Mutex::new(None));
         let (study, model) = match function {
             None => (self.study.clone(), None),
-            Some(Function { call, version, workers, takes_its_time }) => {
+            Some(Function { call, version, workers, is_slow }) => {
                 let caller = match workers {
                     0 => Caller::There(finished.clone()),
                     workers => Caller::Here { workers, first_error: Arc::clone(&first_error), stop: stop.clone() },
@@ -349,7 +349,7 @@ impl Study {
                     series: self.study.model().series().to_vec(),
                     factor_units: PythonModel::units(self.study.space()),
                     caller,
-                    takes_its_time,
+                    is_slow,
                 });
                 (self.study.clone().with_model(model.clone(), &version).map_err(input)?, Some(model))
             }

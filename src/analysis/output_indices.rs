@@ -138,15 +138,15 @@ pub fn output_indices(
     Indices::from_moments(&whole)?;
     let mut judged = judged(replicates, &whole, layout, options).ok_or(Undefined::NoRuns)?;
     // If all rows agree, the plain indices have no noise that a surrogate could reduce.
-    let mut settled = Vec::with_capacity(judged.effects.len());
+    let mut exact = Vec::with_capacity(judged.effects.len());
     for (at, effect) in judged.effects.iter().enumerate() {
         let is_bound = effect.first_order.is_bound || effect.total.is_bound;
-        settled.push(is_bound || whole.swap(layout.swap(at)).inert());
+        exact.push(is_bound || whole.swap(layout.swap(at)).inert());
     }
     let plain: Vec<IndexPair<Estimate>> = judged.effects.iter().map(EffectQuantities::index_estimates).collect();
     let mut used = None;
     if let Some(surrogate) = options.surrogate {
-        let (corrected, of_surrogate) = correct(judged, layout, surrogate, &settled);
+        let (corrected, of_surrogate) = correct(judged, layout, surrogate, &exact);
         (judged, used) = (corrected, Some(of_surrogate));
     }
     let probabilities = if options.ranks { probabilities_first(&judged, options.seed) } else { None };

@@ -17,7 +17,7 @@ pub struct EstimateWithInfluences {
 
 impl EstimateWithInfluences {
     /// Returns the exact number `estimate`, independent of the rows.
-    pub(super) fn settled(&self, estimate: f64) -> Self {
+    pub(super) fn exactly(&self, estimate: f64) -> Self {
         Self { estimate, parts: zeros(&self.parts), low: zeros(&self.low), beyond: 0.0 }
     }
 

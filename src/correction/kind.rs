@@ -23,20 +23,20 @@ pub(super) struct OfKind {
 }
 
 impl OfKind {
-    /// Takes the kind that `read` and `read_plain` return. The indices of settled effects are the plain ones, exactly.
+    /// Takes the kind that `read` and `read_plain` return. The indices of `exact` effects are the plain ones.
     pub fn new(
         plain: &[EffectQuantities<Judgement>],
-        settled: &[bool],
+        exact: &[bool],
         surrogate: &SurrogateEstimates,
         read: fn(&IndexPair<EstimateWithInfluences>) -> &EstimateWithInfluences,
         read_plain: fn(&EffectQuantities<Judgement>) -> &Judgement,
         is_total: bool,
     ) -> Self {
         let mut list: Vec<EstimateWithInfluences> = surrogate.effects.iter().map(|of| read(of).clone()).collect();
-        for ((of, plain), _) in list.iter_mut().zip(plain).zip(settled).filter(|(_, settled)| **settled) {
-            *of = of.settled(read_plain(plain).estimate.estimate);
+        for ((of, plain), _) in list.iter_mut().zip(plain).zip(exact).filter(|(_, exact)| **exact) {
+            *of = of.exactly(read_plain(plain).estimate.estimate);
         }
-        let is_moving = |at: &usize| !settled[*at] && plain[*at].effect != Effect::Dummy;
+        let is_moving = |at: &usize| !exact[*at] && plain[*at].effect != Effect::Dummy;
         let moving: Vec<usize> = (0..plain.len()).filter(is_moving).collect();
         let error = CorrectionError::new(moving.iter().map(|at| &list[*at].parts), is_total);
         let of_plain: f64 = moving.iter().map(|at| read_plain(&plain[*at]).error.error.powi(2)).sum();
@@ -55,22 +55,22 @@ impl OfKind {
         sum(self.list.iter().zip(effects).filter(|(_, effect)| effect.effect.is_input()).map(|(of, _)| of))
     }
 
-    /// Puts the indices of all effects, and the shares of factors and groups, into `new`, except those of `settled`
+    /// Puts the indices of all effects, and the shares of factors and groups, into `new`, except those of `exact`
     /// effects. The noise of a stochastic model has no share.
     pub fn put(
         &self,
         new: &mut Quantities<Option<Judgement>>,
-        settled: &[bool],
+        exact: &[bool],
         index: fn(&mut EffectQuantities<Option<Judgement>>) -> &mut Option<Judgement>,
         share_of: fn(&mut EffectQuantities<Option<Judgement>>) -> &mut Option<Judgement>,
     ) {
-        for ((new, of), _) in new.effects.iter_mut().zip(&self.list).zip(settled).filter(|(_, settled)| !**settled) {
+        for ((new, of), _) in new.effects.iter_mut().zip(&self.list).zip(exact).filter(|(_, exact)| !**exact) {
             *index(new) = Some(self.error.judgement(of));
         }
         for is_of_kind in [Effect::is_factor, Effect::is_group] {
-            let sharing: Vec<usize> = (0..settled.len()).filter(|at| is_of_kind(new.effects[*at].effect)).collect();
+            let sharing: Vec<usize> = (0..exact.len()).filter(|at| is_of_kind(new.effects[*at].effect)).collect();
             let all = sum(sharing.iter().map(|at| &self.list[*at]));
-            for &at in sharing.iter().filter(|at| !settled[**at] && all.estimate > 0.0) {
+            for &at in sharing.iter().filter(|at| !exact[**at] && all.estimate > 0.0) {
                 *share_of(&mut new.effects[at]) = Some(self.error.even().judgement(&share(&self.list[at], &all)));
             }
         }

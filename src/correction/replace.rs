@@ -18,16 +18,16 @@ const DOUBT: f64 = 3.0;
 const JOINT_DOUBT: f64 = 1.5;
 
 /// Replaces the `plain` quantities by corrected ones where their errors are smaller; returns also the use of the
-/// surrogates. The indices of the `settled` effects, by position, stay.
+/// surrogates. The indices of the effects that are `exact`, by position, stay.
 pub(crate) fn correct(
     plain: Quantities<Judgement>,
     layout: &Layout,
     surrogate: &SurrogateEstimates,
-    settled: &[bool],
+    exact: &[bool],
 ) -> (Quantities<Judgement>, SurrogateUse) {
     let first_order =
-        OfKind::new(&plain.effects, settled, surrogate, |pair| &pair.first_order, |of| &of.first_order, false);
-    let total = OfKind::new(&plain.effects, settled, surrogate, |pair| &pair.total, |of| &of.total, true);
+        OfKind::new(&plain.effects, exact, surrogate, |pair| &pair.first_order, |of| &of.first_order, false);
+    let total = OfKind::new(&plain.effects, exact, surrogate, |pair| &pair.total, |of| &of.total, true);
     let gaps = Gaps::new(&[&first_order.gaps, &total.gaps]);
     let refusal = surrogate.refusal().or_else(|| gaps.refusal());
     let used = SurrogateUse {
@@ -50,17 +50,17 @@ pub(crate) fn correct(
     };
     let mut new = plain.clone().map(|_, _| None);
     if let Some(first_order) = corrected.first_order {
-        first_order.put(&mut new, settled, |of| &mut of.first_order, |of| &mut of.shares.first_order);
+        first_order.put(&mut new, exact, |of| &mut of.first_order, |of| &mut of.shares.first_order);
         new.sums.first_order = Some(first_order.error.judgement(&first_order.sum_of_inputs(&plain.effects)));
         for (OfPair { factors: (j, k), value }, index) in new.pairs.iter_mut().zip(&surrogate.pairs) {
-            *value = (!settled[*j] && !settled[*k]).then(|| first_order.error.judgement(index));
+            *value = (!exact[*j] && !exact[*k]).then(|| first_order.error.judgement(index));
         }
     }
     if let Some(total) = corrected.total {
-        total.put(&mut new, settled, |of| &mut of.total, |of| &mut of.shares.total);
+        total.put(&mut new, exact, |of| &mut of.total, |of| &mut of.shares.total);
         new.sums.total = Some(total.error.judgement(&total.sum_of_inputs(&plain.effects)));
     }
-    for (at, new) in new.effects.iter_mut().enumerate().filter(|(at, _)| !settled[*at]) {
+    for (at, new) in new.effects.iter_mut().enumerate().filter(|(at, _)| !exact[*at]) {
         new.interaction = corrected.interaction(at, &plain.effects[at]);
     }
     correct_mean(layout, &corrected, &plain, &mut new);

@@ -379,9 +379,9 @@ class Study:
         call, workers = self._here, 0
         if executor is not None:
             call, workers = called_elsewhere(executor, self._call, stop), in_flight or 1
-        takes_its_time = executor is not None or not self._call.vectorised
+        is_slow = executor is not None or not self._call.vectorised
         version = self._call.fingerprint()
-        return {"call": call, "version": version, "workers": workers, "takes_its_time": takes_its_time}
+        return {"call": call, "version": version, "workers": workers, "is_slow": is_slow}
 
     def _here(self, columns: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
         """Calls the function on columns (factors, rows); what it was tried with counts as the first call of these rows."""

@@ -107,15 +107,15 @@ fn manifest_path(arguments: &Arguments) -> anyhow::Result<PathBuf> {
         return Ok(manifest.clone());
     }
     let points: &Path = arguments.design.as_deref().unwrap_or(&arguments.data);
-    let beside = Manifest::path_for(points);
-    if beside.exists() {
-        return Ok(beside);
+    let manifest_path = Manifest::path_for(points);
+    if manifest_path.exists() {
+        return Ok(manifest_path);
     }
     Err(bad_input(format!(
         "{}: there is no {} that describes these points: give the file that `apportion sample` wrote (--design) \
          or its manifest (--manifest); for points made by SALib, --layout salib",
         arguments.data.display(),
-        beside.display()
+        manifest_path.display()
     )))
 }
 

@@ -25,8 +25,8 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &arguments.result;
     let bytes = read_whole(path).map_err(|error| ReadError { path: path.clone(), problem: error.into() })?;
     let result = parse_result(&bytes).map_err(|problem| ReadError { path: path.clone(), problem })?;
-    let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let folder = arguments.out.as_deref().unwrap_or(beside);
+    let folder_of_result = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = arguments.out.as_deref().unwrap_or(folder_of_result);
     let mut document = run_document(&result);
     let name = format!("{}.json", result.study.name);
     // The page links to the result, so an exact copy of it must be next to the page.
