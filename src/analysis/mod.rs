@@ -22,3 +22,4 @@ pub(crate) use output_indices::{IntervalOptions, output_indices};
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
 pub(crate) use surrogates::{interval_options, surrogates};
+pub(crate) use warnings::is_doubted;

@@ -62,8 +62,8 @@ pub(super) fn output_result(
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
     let kept = outputs_kept(run.replicates, number);
     let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
-    let (points, correlations) = (KeptPoints::all(run.design, &kept), corrected.correlations.as_slice());
-    let options = IntervalOptions { points, correlations, surrogate, ..interval_options(study) };
+    let (points, unread) = (KeptPoints::all(run.design, &kept), study.unread(run.model, number));
+    let options = IntervalOptions { points, unread: &unread, surrogate, ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let layout = study.layout();
     let share = totals.runs_failed as f64 / run.design.rows() as f64;

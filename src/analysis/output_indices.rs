@@ -5,7 +5,7 @@ use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, OfMean, OfPair,
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged, quantities};
 use crate::uncertainty::{
     ByPoints, EffectChecks, EffectEstimates, ErrorKind, Estimate, Influences, IntervalMethod, Judgement, KeptPoints,
-    MAX_CORRELATION, OutputMoments, Side, half_seen, largest_half_width, probability_first, unseen,
+    OutputMoments, Side, half_seen, largest_half_width, probability_first, unseen,
 };
 
 /// Options for intervals and probabilities.
@@ -24,8 +24,8 @@ pub struct IntervalOptions<'a> {
     pub points: Option<KeptPoints<'a>>,
     /// Whether the probabilities of being first are computed: they take most of the time of a small design.
     pub ranks: bool,
-    /// The [correlations](crate::design::Design::column_correlations) of both samples, by swap; empty if irrelevant.
-    pub correlations: &'a [f64],
+    /// Whether each effect, by its position, has only factors that cannot change the output; empty if none is known to.
+    pub unread: &'a [bool],
     /// The surrogate estimates of the outputs, which replace the plain estimates where they are more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
 }
@@ -106,8 +106,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         }
     };
     let [mean, variance] = &judged[..] else { return None };
-    let corrected =
-        options.surrogate.filter(|of| !of.is_heavy_tailed && !of.misses_levels).map(SurrogateEstimates::moments);
+    let corrected = options.surrogate.filter(|of| !of.is_uncertain()).map(SurrogateEstimates::moments);
     Some(match corrected {
         Some(corrected) => OutputMoments {
             mean: more_accurate(mean, &corrected.mean),
@@ -147,7 +146,16 @@ pub fn output_indices(
     let mut used = None;
     if let Some(surrogate) = options.surrogate {
         let (corrected, of_surrogate) = correct(judged, layout, surrogate, &exact);
-        (judged, used) = (corrected, Some(of_surrogate));
+        judged = corrected;
+        if of_surrogate.corrects_total && !of_surrogate.is_doubted && !surrogate.is_uncertain() {
+            let rest = surrogate.largest_rest(whole.count());
+            for (at, effect) in judged.effects.iter_mut().enumerate() {
+                if whole.swap(layout.swap(at)).inert() {
+                    effect.bound(surrogate.effects[at].total.estimate.max(0.0) + rest);
+                }
+            }
+        }
+        used = Some(of_surrogate);
     }
     let probabilities = if options.ranks { probabilities_first(&judged, options.seed) } else { None };
     let mut probabilities = probabilities.into_iter().flatten();
@@ -194,7 +202,7 @@ fn judged(
     let list = |moments: &Moments| quantities(layout, moments).map(Quantities::into_list);
     let values = quantities(layout, whole)?;
     let influences = Influences::from_moments(replicates, &list)?;
-    let unseen = unseen(layout, whole, &values).into_list();
+    let unseen = unseen(layout, whole, &values, options.unread).into_list();
     let mut judgements = match options.by_points() {
         Some(by_points) => {
             let bounds = by_points.bounds(whole.clone(), &influences.whole, &list);
@@ -213,6 +221,17 @@ fn judged(
         judgement.allow_for_unseen(unseen);
     }
     let mut judged = values.zip(judgements).map(|_, (_, judgement)| judgement);
+    for (at, effect) in judged.effects.iter().enumerate() {
+        if effect.effect.is_input() && whole.swap(layout.swap(at)).inert() {
+            for (sum, of) in
+                [(&mut judged.sums.first_order, &effect.first_order), (&mut judged.sums.total, &effect.total)]
+            {
+                if let (Some(sum), Some(of)) = (&mut sum.estimate.interval, of.estimate.interval) {
+                    sum.high += of.high;
+                }
+            }
+        }
+    }
     let half_seen_at = judged.effects.iter_mut().enumerate().filter(|(at, _)| half_seen(whole, layout.swap(*at)));
     for (_, effect) in half_seen_at {
         let more = effect.allow_for_half_seen();
@@ -223,12 +242,6 @@ fn judged(
     for (at, effect) in judged.redrawn.iter_mut().enumerate() {
         if half_seen(whole, layout.redrawn_swap(at)) {
             effect.allow_for_half_seen();
-        }
-    }
-    if !layout.dependent {
-        let inputs = judged.effects.iter_mut().filter(|effect| effect.effect.is_input());
-        for (effect, r) in inputs.zip(options.correlations).filter(|(_, r)| r.abs() > MAX_CORRELATION) {
-            effect.allow_for_correlation(*r);
         }
     }
     Some(judged)

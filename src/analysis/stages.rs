@@ -59,7 +59,6 @@ pub(super) fn stages<'s>(
             points: options.points.map(|points| points.prefix(longest)),
             surrogate: surrogate(longest),
             ranks: false,
-            correlations: &[],
             ..*options
         };
         if let Ok(indices) = output_indices(&prefix, layout, &options) {

@@ -27,16 +27,7 @@ const MIN_GAIN: f64 = 4.0;
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    IntervalOptions {
-        method,
-        threshold,
-        seed,
-        resamples,
-        points: None,
-        ranks: true,
-        correlations: &[],
-        surrogate: None,
-    }
+    IntervalOptions { method, threshold, seed, resamples, points: None, ranks: true, unread: &[], surrogate: None }
 }
 
 /// Computes the surrogate estimates of every output of the runs of `design`, the first of `replicates`, if the study
@@ -158,8 +149,6 @@ pub(super) struct Corrections {
     pub trials: Vec<Option<SurrogateTrial>>,
     /// The levels that are rare among the rows.
     pub rare: Vec<RareLevel>,
-    /// The [`Design::column_correlations`].
-    pub correlations: Vec<f64>,
 }
 
 impl Corrections {
@@ -179,12 +168,6 @@ impl Corrections {
                 }
             }
         }
-        Self {
-            whole,
-            stages,
-            trials,
-            rare: rare_levels(&study.space, design),
-            correlations: design.column_correlations(),
-        }
+        Self { whole, stages, trials, rare: rare_levels(&study.space, design) }
     }
 }

@@ -82,6 +82,34 @@ pub(super) fn of_values(moments: &CentralMoments) -> Option<Warning> {
     (kurtosis > MAX_KURTOSIS && rows < MIN_EFFECTIVE_ROWS).then_some(Warning::FewRows { rows, values, kurtosis })
 }
 
+/// Effective number of rows of a variance, as above, below which a region that the rows show has too few of them.
+const MIN_ROWS_OF_REGION: f64 = 10.0;
+
+/// Returns whether indices of an output with these `values` may be wrong by more than their intervals say: they
+/// contradict each other, leave a part of the variance to no factor, or depend on a few rows.
+pub(crate) fn is_doubted(study: &Study, indices: &OutputIndices, values: &CentralMoments) -> bool {
+    use Warning::{
+        AboveTotal, Contradictory, DoubtedSurrogate, FirstOrderAboveOne, FormulasDiffer, HeavyTailedSurrogate,
+        TotalAboveOne,
+    };
+    let highest = indices.inputs().map(|of| of.estimates.total.interval.map_or(1.0, |interval| interval.high));
+    let rows = values.excess_kurtosis().map_or(0.0, |kurtosis| values.count() as f64 / (kurtosis + 3.0));
+    study.space.copula().is_none() && highest.sum::<f64>() < 1.0
+        || rows < MIN_ROWS_OF_REGION
+        || of_indices(study, indices).iter().any(|warning| {
+            matches!(
+                warning,
+                AboveTotal { .. }
+                    | Contradictory { .. }
+                    | DoubtedSurrogate
+                    | FirstOrderAboveOne { .. }
+                    | FormulasDiffer { .. }
+                    | HeavyTailedSurrogate
+                    | TotalAboveOne { .. }
+            )
+        })
+}
+
 /// Returns a warning for outputs so large that few digits are left for their variation.
 pub(super) fn of_digits(values: &CentralMoments) -> Option<Warning> {
     let error = error_of_rounding(values);

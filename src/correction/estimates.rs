@@ -11,6 +11,9 @@ use crate::uncertainty::{Estimate, Interval, Judgement, StandardError};
 /// functions at 16 base samples and 1.5 at more; from 6 to many thousand if rows do not represent a factor.
 const MAX_GROWTH: f64 = 4.0;
 
+/// Share of the variance below which what surrogates leave is rounding.
+const EXACT: f64 = 1e-9;
+
 /// Surrogate estimates of an output.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurrogateEstimates {
@@ -69,6 +72,22 @@ impl SurrogateEstimates {
         let ([all, model], [all_total, model_total]) = (squares(&first_order, false), squares(&total, true));
         let low_fidelity = (all + all_total - model - model_total).max(0.0);
         ErrorShares { model: model + model_total, low_fidelity }
+    }
+
+    /// Returns whether the surrogates equal the output at all runs to which they were not fitted, to rounding.
+    pub fn is_exact(&self) -> bool {
+        self.low.is_none() && 1.0 - self.explained < EXACT
+    }
+
+    /// Returns whether intervals include the plain ones, whatever the errors.
+    pub fn is_uncertain(&self) -> bool {
+        self.is_heavy_tailed || self.misses_levels
+    }
+
+    /// Returns the largest share of the variance that the surrogates may leave unexplained, over `points` base points.
+    pub fn largest_rest(&self, points: u64) -> f64 {
+        let rest = (1.0 - self.explained).clamp(0.0, 1.0);
+        rest + 4.0 * (rest / points as f64).sqrt()
     }
 
     /// Returns a refusal if they claim more variance than the rows show.

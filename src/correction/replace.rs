@@ -28,7 +28,9 @@ pub(crate) fn correct(
     let first_order =
         OfKind::new(&plain.effects, exact, surrogate, |pair| &pair.first_order, |of| &of.first_order, false);
     let total = OfKind::new(&plain.effects, exact, surrogate, |pair| &pair.total, |of| &of.total, true);
-    let gaps = Gaps::new(&[&first_order.gaps, &total.gaps]);
+    // A surrogate that equals the output at all rows of the other nets differs from plain indices by their error alone.
+    let kinds: &[&[f64]] = if surrogate.is_exact() { &[] } else { &[&first_order.gaps, &total.gaps] };
+    let gaps = Gaps::new(kinds);
     let refusal = surrogate.refusal().or_else(|| gaps.refusal());
     let used = SurrogateUse {
         explained: surrogate.explained,
@@ -64,7 +66,7 @@ pub(crate) fn correct(
         new.interaction = corrected.interaction(at, &plain.effects[at]);
     }
     correct_mean(layout, &corrected, &plain, &mut new);
-    let is_doubted = surrogate.is_heavy_tailed || surrogate.misses_levels || gaps.is_doubt();
+    let is_doubted = surrogate.is_uncertain() || gaps.is_doubt();
     let corrected = plain.zip(new.into_list()).map(|_, (plain, new)| match new {
         None => plain,
         Some(new) if is_doubted => {

@@ -77,7 +77,7 @@ impl Points {
     fn new(settings: &DesignSettings, dimensions: usize, length: u64, stream: u64) -> Self {
         let seed = settings.seed;
         match settings.sampler {
-            Sampler::Sobol => Self::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
+            Sampler::Sobol => Self::Sobol(SobolSequence::scrambled(dimensions, seed, stream).permuted(seed, stream)),
             Sampler::LatinHypercube => Self::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
             Sampler::Random => Self::Random(RandomPoints::new(dimensions, seed, stream)),
         }

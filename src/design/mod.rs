@@ -25,6 +25,7 @@ pub use error::DesignError;
 use joe_kuo::MAX_DIMENSIONS;
 use latin::LatinHypercube;
 use random::RandomPoints;
+pub(crate) use random::shuffle;
 use rows::Runs;
 pub(crate) use rows::Swap;
 pub use rows::{Matrix, RowKind, Rows, Run};
@@ -39,10 +40,6 @@ const MAX_PAIRED_FACTORS: usize = 256;
 
 /// Maximum number of plain rows of a base point.
 pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
-
-/// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
-/// 60 dimensions is correlated by more than 0.1.
-const MAX_CORRELATED_POINTS: u64 = 1 << 10;
 
 /// A checked Saltelli design.
 ///
@@ -231,6 +228,11 @@ impl Design {
         &self.runs.ba
     }
 
+    /// Returns the number of distinct values of every factor: swapped rows repeat those of A and B.
+    pub fn distinct_values(&self) -> u64 {
+        self.settings.base_samples * (2 + u64::from(self.requested.plain_rows))
+    }
+
     /// Returns the number of rows of one base point: A, B and the requested ones, each distinct point once.
     pub fn rows_per_point(&self) -> u64 {
         self.runs.runs.len() as u64
@@ -263,29 +265,6 @@ impl Design {
         let mut columns = vec![vec![0.0; points]; 2 * self.factors()];
         self.replicate(replicate).fill(0, &mut columns);
         columns
-    }
-
-    /// Returns for each swap the correlation over all base points of its columns in A and in B, both uniform on (0, 1),
-    /// and of several columns the largest. Among many factors some pairs share leading digits over the first points: the outputs of rows that differ
-    /// only in such a factor then differ too little or too much. Empty above 1024 points a replicate: this is rare
-    /// there.
-    pub fn column_correlations(&self) -> Vec<f64> {
-        let (points, factors) = (self.points_per_replicate(), self.factors());
-        if points > MAX_CORRELATED_POINTS || !self.settings.sampler.is_digital() || self.is_dependent() {
-            return Vec::new();
-        }
-        let mut sums = vec![0.0; factors];
-        for replicate in 0..self.settings.replicates {
-            let columns = self.first_points(replicate, points as usize);
-            let (a, b) = columns.split_at(factors);
-            for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-                *sum += a.iter().zip(b).map(|(a, b)| (a - 0.5) * (b - 0.5)).sum::<f64>();
-            }
-        }
-        // The variance of a uniform number is 1/12.
-        let correlations: Vec<f64> = sums.iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect();
-        let of_swaps = self.swaps().iter().map(|swap| swap.iter().map(|column| correlations[*column]));
-        of_swaps.map(|swap| swap.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)).collect()
     }
 
     /// Writes row number `row` of the design as a point of the unit cube to `u`, which has one entry per factor.

@@ -1,7 +1,7 @@
 //! Plain random points, addressed by index.
 
-use rand::SeedableRng;
 use rand::distr::{Distribution, Open01};
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Independent uniform points: one ChaCha stream per replicate, with random access to rows.
@@ -32,6 +32,13 @@ impl RandomPoints {
                 column[row] = Open01.sample(&mut rng);
             }
         }
+    }
+}
+
+/// Puts `items` in random order, in the same way on every platform.
+pub(crate) fn shuffle<T>(items: &mut [T], rng: &mut ChaCha8Rng) {
+    for k in (1..items.len()).rev() {
+        items.swap(k, rng.random_range(0..=k as u64) as usize);
     }
 }
 

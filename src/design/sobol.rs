@@ -6,6 +6,10 @@ use rand_chacha::ChaCha8Rng;
 use sobol_burley::parts::owen_scramble_rev;
 
 use super::joe_kuo::{BITS, Directions, directions};
+use super::shuffle;
+
+/// Permutations have a separate random stream.
+const PERMUTATION_STREAM: u64 = 1 << 62;
 
 /// One randomised Sobol' sequence of up to 2^32 points: every call for the same index returns the same point.
 ///
@@ -34,6 +38,18 @@ impl SobolSequence {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(replicate);
         Self { scrambles: Some((0..dimensions).map(|_| rng.next_u32()).collect()), ..Self::plain(dimensions) }
+    }
+
+    /// Assigns the coordinates to the dimensions of the sequence in a random order, another one for each `replicate`.
+    ///
+    /// The first digits of all coordinates are linear functions of the few digits of the point's number, and a scramble
+    /// only flips them: without this, all replicates share the same dependences among factors with few levels.
+    #[must_use]
+    pub fn permuted(mut self, seed: u64, replicate: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(replicate | PERMUTATION_STREAM);
+        shuffle(&mut self.directions, &mut rng);
+        self
     }
 
     /// Creates the sequence without scrambling, as published, for tests and comparisons; its first point is (nearly) 0.

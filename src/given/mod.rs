@@ -27,10 +27,12 @@ pub(crate) use measures::measures_of_rows;
 pub use measures::{InputMeasures, Measure, Measured, measures};
 use order::Order;
 pub use outcome::{InputIndices, OutputIndices};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 pub use surrogate::{SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices};
 use thiserror::Error;
+
+use crate::design::shuffle;
 
 /// Minimum number of rows: with fewer, an interval is wider than the range of an index.
 pub(crate) const MIN_ROWS: usize = 30;
@@ -179,13 +181,6 @@ fn drawn_rows(rows: usize, most: usize, seed: u64) -> Vec<usize> {
     shuffle(&mut all, &mut ChaCha8Rng::seed_from_u64(seed));
     all.truncate(most);
     all
-}
-
-/// Puts rows in random order, in the same way on every platform.
-fn shuffle(rows: &mut [usize], rng: &mut ChaCha8Rng) {
-    for k in (1..rows.len()).rev() {
-        rows.swap(k, rng.random_range(0..=k as u64) as usize);
-    }
 }
 
 /// Returns the number of rows, if the table can be analysed.

@@ -126,6 +126,12 @@ pub trait Model: Send + Sync {
         self.concurrency().is_some()
     }
 
+    /// Returns whether an output may depend on a factor, both by index; `false` only if it certainly does not. Runs alone
+    /// cannot show that an input has no effect.
+    fn reads(&self, _output: usize, _factor: usize) -> bool {
+        true
+    }
+
     /// Creates a worker for one thread of the run of `context`.
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
 }

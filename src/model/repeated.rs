@@ -88,6 +88,10 @@ impl Model for RepeatedModel {
         self.model.counters()
     }
 
+    fn reads(&self, output: usize, factor: usize) -> bool {
+        self.model.reads(output / 2, factor)
+    }
+
     fn concurrency(&self) -> Option<usize> {
         self.model.concurrency()
     }

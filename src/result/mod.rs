@@ -316,6 +316,8 @@ impl SeriesRecord {
 pub struct AccuracyRecord {
     /// The requested half width.
     pub accuracy: f64,
+    /// Part of the range of a factor, from 0 to 1: with 95 % probability no larger part escaped all of its values.
+    pub excluded_region: f64,
     /// Total runs of the model, including those of trials.
     pub runs: u64,
     /// Minimum number of runs for the same half width without surrogates and low-fidelity models, by the intervals of

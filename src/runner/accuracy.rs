@@ -13,7 +13,7 @@ use crate::model::RunContext;
 use crate::result::{AccuracyRecord, StopReason, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice};
-use crate::uncertainty::largest_half_width;
+use crate::uncertainty::{RULE_OF_THREE, largest_half_width};
 
 /// Base points of each replicate in a trial without plain rows, the minimum to which surrogates are fitted.
 const TRIAL_POINTS: u64 = 4;
@@ -162,15 +162,19 @@ impl AccuracySearch<'_> {
         let base_samples = points.saturating_mul(settings.replicates);
         let settings = DesignSettings { base_samples, ..settings.clone() };
         let rows = Rows { plain_rows, ..study.design.requested().clone() };
+        let max_runs = if step == Step::Plain { study.target.max_runs } else { self.max_runs() };
         let mut variant = study.clone();
         variant.design = Design::new(settings, study.design.factors(), rows).map_err(RunError::Design)?;
+        // Nothing is known to an accuracy with fewer values of a factor.
+        while variant.design.distinct_values() < study.needed_values()
+            && let Ok(longer) = variant.design.with_points(2 * variant.design.points_per_replicate())
+            && max_runs.is_none_or(|max_runs| longer.rows() <= max_runs)
+        {
+            variant.design = longer;
+        }
         variant.analysis.surrogate = surrogate;
         variant.low_fidelities = if step == Step::Fitted { self.low_fidelity.clone() } else { Vec::new() };
-        variant.target.max_runs = match step {
-            Step::Trial => Some(variant.design.rows()),
-            Step::Split | Step::Fitted => self.max_runs(),
-            Step::Plain => study.target.max_runs,
-        };
+        variant.target.max_runs = if step == Step::Trial { Some(variant.design.rows()) } else { max_runs };
         Ok(variant)
     }
 
@@ -193,8 +197,10 @@ impl AccuracySearch<'_> {
     /// Returns the result of the last step, with the record of the search.
     fn recorded(self, RunOutcome { study, mut result, .. }: RunOutcome) -> StudyResult {
         let accuracy = study.target.accuracy.unwrap_or_default();
+        let provenance = &result.provenance;
         result.spending = Some(AccuracyRecord {
             accuracy,
+            excluded_region: RULE_OF_THREE / (provenance.base_samples * (2 + u64::from(provenance.plain_rows))) as f64,
             runs: self.earlier_runs + result.provenance.model_runs,
             plain_runs: plain_runs(&study, &result, accuracy),
             reasons: self.reasons,

@@ -2,9 +2,9 @@
 
 use super::low_fidelity::LowFidelityRun;
 use crate::analysis::{IntervalOptions, output_indices};
-use crate::analysis::{enough_base_samples, interval_options, rare_levels, surrogates};
+use crate::analysis::{enough_base_samples, interval_options, is_doubted, rare_levels, surrogates};
 use crate::correction::{ErrorShares, SurrogateEstimates};
-use crate::estimate::{MomentParts, PointOutputs, Undefined};
+use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Undefined};
 use crate::result::StopReason;
 use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
@@ -119,20 +119,27 @@ impl Growth<'_> {
         let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
         let (layout, options) = (study.layout(), interval_options(study));
         let squared_errors = ErrorShares::default();
-        let mut all = Stage { widest: None, is_checked: true, squared_errors, surrogates: Vec::new() };
+        let mut all =
+            Stage { widest: None, is_checked: true, is_doubted: false, squared_errors, surrogates: Vec::new() };
         let Ok(design) = run.design().with_points(run.points_per_replicate()) else { return all };
         let low_fidelity: Vec<_> = low_fidelity.iter().map(LowFidelityRun::totals).collect();
-        let (mut has_all, correlations) = (true, &design.column_correlations());
+        let (mut has_all, model) = (true, study.model());
         all.surrogates = surrogates(study, &design, run.totals(), &low_fidelity, &[]);
         for number in 0..outputs {
             let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
             let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
             let surrogate = all.surrogates.get(number).and_then(Option::as_ref);
             let points = KeptPoints::all(&design, &kept);
-            let options = IntervalOptions { points, correlations, surrogate, ranks: false, ..options };
+            let unread = study.unread(model.as_ref(), number);
+            let options = IntervalOptions { points, unread: &unread, surrogate, ranks: false, ..options };
             let indices = output_indices(&parts, &layout, &options);
             if let Some(indices) = indices.as_ref().ok().filter(|indices| indices.surrogate.is_some()) {
                 all.is_checked &= indices.plain_half_width().is_some_and(|half| half <= MAX_PLAIN_HALF_WIDTH);
+            }
+            if let Ok(indices) = &indices {
+                let mut values = CentralMoments::default();
+                run.totals().iter().for_each(|totals| values.merge(&totals.outputs[number].values));
+                all.is_doubted |= is_doubted(study, indices, &values);
             }
             match indices.map(|indices| indices.largest_half_width()) {
                 Ok(Some(widest)) if all.widest.is_none_or(|before| widest > before) => {
@@ -152,7 +159,7 @@ impl Growth<'_> {
     fn reason_to_stop(&self, stage: &Stage) -> Option<StopReason> {
         let Self { study, run, .. } = self;
         let (longest, widest) = (run.design(), stage.widest);
-        let Target { accuracy, max_time, max_runs } = study.target;
+        let Target { accuracy, max_time, max_runs, .. } = study.target;
         let next = run.points_per_replicate() * 2;
         let replicates = longest.settings().replicates;
         let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
@@ -162,8 +169,11 @@ impl Growth<'_> {
         let has_none =
             replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
         let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && self.fails_too_often();
-        let is_met = stage.is_checked && accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
-        let design = is_met.then(|| longest.with_points(run.points_per_replicate()).ok()).flatten();
+        let is_reached = accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
+        let design = longest.with_points(run.points_per_replicate()).ok().filter(|design| {
+            is_reached && stage.is_checked && !stage.is_doubted && design.distinct_values() >= study.needed_values()
+        });
+        let is_met = design.is_some();
         let rare = design.map_or_else(Vec::new, |design| rare_levels(&study.space, &design));
         Some(match (accuracy, widest) {
             (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
@@ -207,6 +217,8 @@ struct Stage {
     widest: Option<f64>,
     /// Whether plain indices are accurate enough to contradict corrected ones.
     is_checked: bool,
+    /// Whether indices may be wrong by more than their intervals say.
+    is_doubted: bool,
     /// Squared errors of the output with this half width.
     squared_errors: ErrorShares,
     /// The surrogate estimates of every output.

@@ -2,7 +2,8 @@
 
 use super::Study;
 use crate::effect::Effect;
-use crate::space::Group;
+use crate::model::Model;
+use crate::space::{Distribution, Group};
 
 /// An effect with its name and its factors.
 pub(crate) struct StudyEffect {
@@ -35,5 +36,18 @@ impl Study {
             effects.push(StudyEffect { effect: Effect::Dummy, name: "dummy".to_owned(), factors: Vec::new() });
         }
         effects
+    }
+
+    /// Returns whether each effect certainly leaves output number `output` of `model` unchanged: the model does not read its
+    /// factors, or they are constants.
+    pub(crate) fn unread(&self, model: &dyn Model, output: usize) -> Vec<bool> {
+        let mut unread = Vec::new();
+        for effect in self.effects() {
+            unread.push(effect.factors.iter().all(|&factor| {
+                let law = self.space.factors()[factor].distribution();
+                matches!(law, Distribution::Constant(_)) || !model.reads(output, factor)
+            }));
+        }
+        unread
     }
 }

@@ -138,7 +138,7 @@ pub(super) const MAX_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 /// use apportion::Target;
 ///
 /// let target = Target::accuracy(0.01).max_time(60.0);
-/// assert_eq!(target, Target { accuracy: Some(0.01), max_time: Some(60.0), max_runs: None });
+/// assert_eq!((target.accuracy, target.max_time, target.max_runs), (Some(0.01), Some(60.0), None));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
@@ -149,12 +149,16 @@ pub struct Target {
     pub max_time: Option<f64>,
     /// Maximum number of model runs.
     pub max_runs: Option<u64>,
+    /// The smallest part of a factor's range, from 0 to 1, that must not escape: an accuracy is reached only if every
+    /// factor has so many distinct values that a region of this size contains one, with 95 % probability. `None` for
+    /// 0.05 where the model takes its time, and 0.001 where it does not.
+    pub smallest_region: Option<f64>,
 }
 
 impl Target {
     /// Creates a target of this half width for every first-order and total index.
     pub const fn accuracy(half_width: f64) -> Self {
-        Self { accuracy: Some(half_width), max_time: None, max_runs: None }
+        Self { accuracy: Some(half_width), max_time: None, max_runs: None, smallest_region: None }
     }
 
     /// Excludes a doubling that would take longer than `seconds` in all.
@@ -169,9 +173,15 @@ impl Target {
         Self { max_runs: Some(runs), ..self }
     }
 
+    /// Requires distinct values of every factor in any region of this part of its range.
+    #[must_use]
+    pub const fn smallest_region(self, part: f64) -> Self {
+        Self { smallest_region: Some(part), ..self }
+    }
+
     /// Returns whether the run grows.
     pub fn grows(&self) -> bool {
-        *self != Self::default()
+        self.accuracy.is_some() || self.max_time.is_some() || self.max_runs.is_some()
     }
 
     /// Returns the default number of base samples with which a run with `replicates` starts.

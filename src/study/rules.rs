@@ -216,7 +216,7 @@ pub struct Length {
 
 impl Length {
     pub(super) fn check(&self, sampler: Sampler) -> Result<(), BuildError> {
-        let Target { accuracy, max_time, max_runs } = self.target;
+        let Target { accuracy, max_time, max_runs, smallest_region } = self.target;
         let sizes = [
             ("accuracy", accuracy.is_some()),
             ("runs", self.runs.is_some()),
@@ -232,6 +232,14 @@ impl Length {
             && let Some(size) = size.filter(|size| *size != "accuracy")
         {
             return wrong(limit, "used with `accuracy` or alone", format!("with `{size}`"));
+        }
+        if accuracy.is_none()
+            && let Some(region) = smallest_region
+        {
+            return wrong("smallest_region", "used with `accuracy`", region);
+        }
+        if let Some(region) = smallest_region.filter(|region| !(*region > 0.0 && *region < 1.0)) {
+            return wrong("smallest_region", "a part of a factor's range, above 0 and below 1", region);
         }
         for (key, value) in [("accuracy", accuracy), ("max_time", max_time)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {

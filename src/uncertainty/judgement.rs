@@ -46,28 +46,33 @@ impl Judgement {
             .collect()
     }
 
-    /// Sets the error that the rows cannot show if no part has an influence, or if the nets agree to rounding.
+    /// Sets the error that the rows cannot show if no part has an influence, or if the nets agree to rounding. An index
+    /// of 0 is missed only above.
     pub fn allow_for_unseen(&mut self, unseen: Unseen) {
         let estimate = self.estimate.estimate;
         let is_equal = unseen.applies(&self.parts) || self.error.error <= unseen.rounding;
         if unseen.half_width > 0.0 && estimate.is_finite() && self.error.error.is_finite() && is_equal {
-            self.estimate.interval = Some(Interval::about(estimate, unseen.half_width));
+            let low = if estimate == 0.0 { 0.0 } else { estimate - unseen.half_width };
+            self.estimate.interval = Some(Interval { low, high: estimate + unseen.half_width });
             self.error.error = unseen.half_width / NORMAL_QUANTILE;
             self.is_bound = true;
-        }
-    }
-
-    /// Extends the interval to the `full` value.
-    fn reach(&mut self, full: f64) {
-        let estimate = self.estimate.estimate;
-        if let Some(interval) = &mut self.estimate.interval {
-            *interval = Interval { low: interval.low.min(full), high: interval.high.max(full) };
-            self.error.error = self.error.error.max((full - estimate).abs() / NORMAL_QUANTILE);
         }
     }
 }
 
 impl EffectQuantities<Judgement> {
+    /// Lowers the bounds of an effect that no row shows to `most`, the largest total index that a surrogate leaves it.
+    pub(crate) fn bound(&mut self, most: f64) {
+        let IndexPair { first_order, total } = &mut self.shares;
+        let indices = [&mut self.first_order, &mut self.total, &mut self.interaction].map(|index| (index, most));
+        for (judgement, most) in indices.into_iter().chain([first_order, total].map(|share| (share, 100.0 * most))) {
+            if let Some(interval) = &mut judgement.estimate.interval {
+                interval.high = interval.high.min(most);
+                judgement.error.error = judgement.error.error.min(most / NORMAL_QUANTILE);
+            }
+        }
+    }
+
     /// Bounds the first-order index from above only by the total index, and the interaction accordingly; returns by how
     /// much the bound rises.
     pub(crate) fn allow_for_half_seen(&mut self) -> f64 {
@@ -83,14 +88,5 @@ impl EffectQuantities<Judgement> {
             interaction.low -= more;
         }
         more
-    }
-
-    /// Extends the intervals of a factor whose columns of the two samples have the correlation `r`: for an output
-    /// monotone in the factor, rows that differ only in it show a part 1 - r, in all nets alike if r is.
-    pub(crate) fn allow_for_correlation(&mut self, r: f64) {
-        let IndexPair { first_order, total } = &mut self.shares;
-        for judgement in [&mut self.first_order, &mut self.total, first_order, total, &mut self.interaction] {
-            judgement.reach(judgement.estimate.estimate / (1.0 - r).max(f64::EPSILON));
-        }
     }
 }

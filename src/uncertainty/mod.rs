@@ -31,15 +31,12 @@ pub(crate) use points::KeptPoints;
 pub(crate) use ranks::probability_first;
 use serde::{Deserialize, Serialize};
 pub(crate) use standard_error::{ErrorKind, PartInfluences, Side, StandardError};
-pub(crate) use unseen::{half_seen, unseen};
+pub(crate) use unseen::{RULE_OF_THREE, half_seen, unseen};
 
 use apportion_base::special::t_quantile_outside;
 
 /// Quantile of the normal distribution for [`Interval::LEVEL`].
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
-
-/// Maximum correlation of the two columns of a factor for which the spread of the nets shows its effect on the indices.
-pub(crate) const MAX_CORRELATION: f64 = 0.3;
 
 /// A two-sided confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

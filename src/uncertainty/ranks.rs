@@ -86,6 +86,10 @@ fn coordinates(directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         if length > SPANNED {
             basis.push(rest.into_iter().map(|x| x / length).collect());
             coordinates.push(length);
+        } else if coordinates.iter().all(|along| *along == 0.0) {
+            // The error of a quantity that no part moves is independent of the others.
+            basis.push(rest);
+            coordinates.push(1.0);
         }
         all.push(coordinates);
     }

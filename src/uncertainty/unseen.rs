@@ -4,15 +4,15 @@
 //! because no base point changed the output in both of its rows, or an index that is the same in every part. The spread
 //! is then 0, although the index may be wrong. All that is known is that n rows did not show a contribution of another
 //! kind: by the rule of three (Hanley and Lippman-Hand 1983, JAMA 249, 1743-1745), such rows are fewer than 3 in n, at
-//! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
-//! unchanged in every row keeps an error of 0.
+//! 95 %. Each moves the index by at most what the range of the output allows. The same holds for a factor that leaves the
+//! output unchanged in every row: only one that the model does not read has an error of 0.
 
 use super::standard_error::PartInfluences;
-use crate::effect::{EffectQuantities, IndexPair, Layout, NoisePairing, Quantities};
+use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, NoisePairing, Quantities};
 use crate::estimate::{Moments, SwapMoments};
 
 /// Upper bound at 95 % of the expected number of rows of a kind not seen in n rows: -ln 0.05.
-const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
+pub(crate) const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
 
 /// Influences up to this share of the size of an index are rounding: at most about 64 units in the last place, times
 /// n/n_p for leaving out one of 256 parts.
@@ -50,30 +50,43 @@ impl Unseen {
     }
 }
 
-/// Returns the possible error of every quantity if its influences show no spread; `values` are the quantities.
-/// Differences between estimators have none.
-pub(crate) fn unseen(layout: &Layout, moments: &Moments, values: &Quantities<f64>) -> Quantities<Unseen> {
+/// Returns the possible error of every quantity if its influences show no spread; `values` are the quantities, and
+/// `unread` the effects that the model does not read, by position. Differences between estimators have none.
+pub(crate) fn unseen(
+    layout: &Layout,
+    moments: &Moments,
+    values: &Quantities<f64>,
+    unread: &[bool],
+) -> Quantities<Unseen> {
     let mut all = values.clone().map(|_, _| Unseen::NONE);
     let Some((low, high)) = moments.range() else { return all };
     // In two steps: the square of the range may overflow.
     let sd = moments.variance().sqrt();
     let spread = (high - low) / sd * ((high - low) / sd);
     let inputs = layout.inputs();
-    let is_alone = (0..inputs).filter(|swap| !moments.swap(*swap).inert()).count() <= 1;
+    let is_unread = |at: usize, sums: &SwapMoments| {
+        sums.inert() && (layout.effects[at] == Effect::Dummy || unread.get(at).is_some_and(|unread| *unread))
+    };
+    let is_alone = (0..inputs).filter(|at| !is_unread(*at, moments.swap(*at))).count() <= 1;
     for (at, (unseen, value)) in all.effects.iter_mut().zip(&values.effects).enumerate() {
-        // The share of the only factor with an effect is exactly 100 %.
-        let has_share = !(is_alone && value.effect.is_input());
-        unseen.allow_for_rows(moments.swap(layout.swap(at)), spread, value.total, has_share);
+        let sums = moments.swap(layout.swap(at));
+        if !is_unread(at, sums) {
+            // The share of the only factor with an effect is exactly 100 %.
+            unseen.allow_for_rows(sums, spread, value.total, !(is_alone && value.effect.is_input()));
+        }
     }
     for (at, (unseen, value)) in all.redrawn.iter_mut().zip(&values.redrawn).enumerate() {
-        unseen.allow_for_rows(moments.swap(layout.redrawn_swap(at)), spread, value.total, true);
+        let sums = moments.swap(layout.redrawn_swap(at));
+        if !is_unread(at, sums) {
+            unseen.allow_for_rows(sums, spread, value.total, true);
+        }
     }
     let largest = all.effects[..inputs].iter().map(|effect| effect.first_order.half_width).fold(0.0, f64::max);
     let of_sum = Unseen { half_width: largest, rounding: ROUNDING };
     all.sums = IndexPair { first_order: of_sum, total: of_sum };
     for pair in &mut all.pairs {
         let (j, k) = (moments.swap(pair.factors.0), moments.swap(pair.factors.1));
-        if !j.inert() && !k.inert() {
+        if !is_unread(pair.factors.0, j) && !is_unread(pair.factors.1, k) {
             let total = |factor: usize| values.effects[factor].total.abs().min(1.0);
             let rounding = ROUNDING * (total(pair.factors.0) * total(pair.factors.1)).sqrt();
             pair.value = Unseen { half_width: bound(j.base.n.min(k.base.n), spread, 1.0), rounding };
@@ -107,17 +120,16 @@ fn allow_for_mean(effects: &mut [EffectQuantities<Unseen>], pairings: &[NoisePai
 }
 
 impl EffectQuantities<Unseen> {
-    /// Sets the possible errors of an effect with these sums and `total` index, unless it leaves the output unchanged in
-    /// every row.
+    /// Sets the possible errors of an effect with these sums and `total` index.
     fn allow_for_rows(&mut self, sums: &SwapMoments, spread: f64, total: f64, has_share: bool) {
-        if sums.inert() {
-            return;
-        }
         let total = total.abs().min(1.0);
         // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
         let part = if sums.ba.is_some() { 0.5 } else { 1.0 };
         self.first_order = Unseen { half_width: bound(sums.base.n, spread, part), rounding: ROUNDING * total.sqrt() };
         self.total = Unseen { half_width: bound(sums.base.n, spread, 0.5), rounding: ROUNDING * total };
+        if sums.inert() {
+            self.interaction = self.total;
+        }
         if has_share {
             self.shares =
                 IndexPair { first_order: self.first_order.map(|x| 100.0 * x), total: self.total.map(|x| 100.0 * x) };

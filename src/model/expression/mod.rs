@@ -129,6 +129,10 @@ impl Model for ExpressionModel {
         &self.outputs
     }
 
+    fn reads(&self, output: usize, factor: usize) -> bool {
+        self.formulas[output].program.reads(factor)
+    }
+
     fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         let failures = [
             RowFailure::new("the formula has no value (it is NaN, as 0/0 and ln(-1) are)"),

@@ -65,6 +65,11 @@ pub struct Stack {
 }
 
 impl Program {
+    /// Returns whether the input with that index is in the formula.
+    pub fn reads(&self, input: usize) -> bool {
+        self.steps.iter().any(|step| matches!(step, Step::Input(read) if *read == input))
+    }
+
     /// Adds a step. A step whose operands are all numbers is computed at once and becomes a number.
     pub fn push(&mut self, step: Step) {
         self.steps.push(step);
