@@ -29,11 +29,12 @@ use serde_json::{Map, Value};
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::analysis::named_inputs;
-use crate::model::{Model, Output, RunContext};
+use crate::model::{Model, RunContext};
 use crate::run::Progress;
-use crate::space::{Factor, Space};
-use crate::uncertainty::Estimate;
+use crate::space::{Distribution, Factor, Space};
+use crate::uncertainty::{Estimate, Interval, RULE_OF_THREE};
 use apportion_base::quantity::Unlikely;
+use apportion_base::sum::mean;
 
 /// The work of a screening.
 #[derive(Clone, Copy)]
@@ -168,7 +169,7 @@ pub fn screen(
     context.messages().finish();
     let mut outputs = Vec::with_capacity(job.model.outputs().len());
     for (number, output) in job.model.outputs().iter().enumerate() {
-        let screened = screened(output, number, &outcome, factors, parts as usize);
+        let screened = screened(job.model, number, &outcome, factors, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
         let unlikely = Unlikely::find(&values).map(|value| value.in_runs(value.first + 1));
         outputs.push(ScreenedOutput {
@@ -187,6 +188,22 @@ pub fn screen(
         outputs,
         flags: outcome.flags,
     })
+}
+
+impl ScreenedFactor {
+    fn has_no_effect(&self) -> bool {
+        self.mu_star.is_some_and(|mu_star| mu_star.estimate == 0.0)
+    }
+
+    /// Sets the intervals of a factor all of whose effects are 0: by the rule of three, fewer than 3 in n effects of the
+    /// usual `size` were missed, at 95 %.
+    fn allow_for_unseen(&mut self, size: f64) {
+        let share = (RULE_OF_THREE / self.effects as f64).min(1.0);
+        let between = |low: f64, high: f64| Some(Estimate { estimate: 0.0, interval: Some(Interval { low, high }) });
+        self.mu = between(-share * size, share * size);
+        self.mu_star = between(0.0, share * size);
+        self.sigma = between(0.0, share.sqrt() * size);
+    }
 }
 
 /// Returns why runs failed in output number `number`.
@@ -214,7 +231,14 @@ fn dropped_effects(factors: &[ScreenedFactor]) -> Option<String> {
 
 /// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
 /// within each trajectory, in `parts` independent parts.
-fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
+fn screened(
+    model: &dyn Model,
+    number: usize,
+    outcome: &Outcome,
+    space: &[Factor],
+    parts: usize,
+) -> Vec<ScreenedFactor> {
+    let output = &model.outputs()[number];
     let mut screened = Vec::with_capacity(space.len());
     for (j, factor) in space.iter().enumerate() {
         let effects = outcome.effects[number].iter().skip(j).step_by(space.len());
@@ -236,6 +260,15 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
             dropped: effects.len() as u64 - finite,
             idle_steps: outcome.idle[j],
         });
+    }
+    let changes: Vec<f64> =
+        outcome.effects[number].iter().filter(|effect| effect.abs() > 0.0).map(|effect| effect.abs()).collect();
+    let size = output.unit.span_from_si(mean(&changes));
+    for (j, factor) in screened.iter_mut().enumerate().filter(|(_, factor)| factor.has_no_effect()) {
+        let is_exact = matches!(space[j].distribution(), Distribution::Constant(_)) || !model.reads(number, j);
+        if !is_exact && size.is_finite() {
+            factor.allow_for_unseen(size);
+        }
     }
     let sizes: Vec<f64> =
         screened.iter().map(|factor| factor.mu_star.map_or(f64::NEG_INFINITY, |mu_star| mu_star.estimate)).collect();

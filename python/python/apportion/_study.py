@@ -37,7 +37,7 @@ from ._tables import named, numbers, placed, series_name
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
 # Keywords of `Study` that are named in its signature.
-_NAMED = ("outputs", "name", "title", "vectorised", "call", "accuracy", "max_time", "noise")
+_NAMED = ("outputs", "name", "title", "vectorised", "call", "accuracy", "smallest_region", "max_time", "noise")
 _MAX_TRAJECTORIES, _MAX_LEVELS, _MAX_POINTS = 2**32, 2**16, 10**6
 
 
@@ -57,7 +57,8 @@ class Study:
     and `noise={"repetitions": 8}` calls the function 8 times for each row: its outputs are then `y_mean` and `y_variance`.
 
     The length of a run: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
-    within `max_runs` and `max_time` (seconds). By default 16,384 base samples.
+    within `max_runs` and `max_time` (seconds), not missing any region of `smallest_region` of a factor's range (0.05 for functions of
+    Python). By default 16,384 base samples.
 
     The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
     a NumPy generator, from which a seed is drawn).
@@ -89,6 +90,7 @@ class Study:
         base_samples: int | None = None,
         runs: int | None = None,
         accuracy: float | None = None,
+        smallest_region: float | None = None,
         max_runs: int | None = None,
         max_time: float | None = None,
         sampler: str | None = None,
@@ -138,7 +140,7 @@ class Study:
         else:
             made |= {} if noise is None else {noise: Seed()}
             stated = made
-        table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy}
+        table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy, "smallest_region": smallest_region}
         design = {key: options.pop(key, None) for key in DESIGN}
         design["max_time"] = None if max_time is None else f"{max_time} s"
         analysis = {key: options.pop(key, None) for key in ANALYSIS}
@@ -471,6 +473,7 @@ def analyse(
     base_samples: int | None = None,
     runs: int | None = None,
     accuracy: float | None = None,
+    smallest_region: float | None = None,
     max_runs: int | None = None,
     max_time: float | None = None,
     sampler: str | None = None,

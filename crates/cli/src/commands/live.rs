@@ -215,7 +215,9 @@ fn preset(name: &str, title: &str, text: &str) -> Value {
 
 /// Returns the text of a study without the keys that determine the length of a run.
 fn without_target(mut study: DocumentMut) -> String {
-    study.remove("accuracy");
+    for key in ["accuracy", "smallest_region"] {
+        study.remove(key);
+    }
     if let Some(design) = study.get_mut("design").and_then(Item::as_table_like_mut) {
         for key in ["runs", "max_runs", "max_time"] {
             design.remove(key);

@@ -25,6 +25,7 @@ pub(super) fn apply_tables(reading: &Reading, space: &Space, builder: &mut Study
         accuracy: copied(&file.accuracy),
         max_time: section.max_time.as_ref().map(|text| seconds(context, "max_time", text)).transpose()?,
         max_runs: copied(&section.max_runs),
+        smallest_region: copied(&file.smallest_region),
     };
     builder.replicates = copied(&section.replicates);
     builder.seed = copied(&section.seed).unwrap_or(builder.seed);

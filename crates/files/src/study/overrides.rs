@@ -64,8 +64,8 @@ fn set(root: &mut Table, text: &str) -> Result<(), String> {
 /// Keys that set the length of a run, each with those that it replaces.
 const INSTEAD: [(&str, &[&str]); 5] = [
     ("accuracy", &["design.base_samples", "design.runs", "fidelity.base_samples"]),
-    ("design.runs", &["accuracy", "design.base_samples", "design.max_runs", "design.max_time"]),
-    ("design.base_samples", &["accuracy", "design.runs", "design.max_runs", "design.max_time"]),
+    ("design.runs", &["accuracy", "smallest_region", "design.base_samples", "design.max_runs", "design.max_time"]),
+    ("design.base_samples", &["accuracy", "smallest_region", "design.runs", "design.max_runs", "design.max_time"]),
     ("design.max_runs", &["design.base_samples", "design.runs"]),
     ("design.max_time", &["design.base_samples", "design.runs"]),
 ];

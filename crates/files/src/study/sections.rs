@@ -59,6 +59,10 @@ pub(super) struct StudyFile {
     /// reach. The run then chooses its design, surrogates and cheaper models.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub accuracy: Option<At<f64>>,
+    /// With `accuracy`: the smallest part of a factor's range in which the output may behave differently that the run
+    /// must not miss, such as 0.01; 0.05 where the model is a program or integrates motion, otherwise 0.001.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    pub smallest_region: Option<At<f64>>,
     /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
     pub dependence: Vec<At<DependenceSection>>,
     /// Cheaper models of the same outputs, used in place of the model where they help.

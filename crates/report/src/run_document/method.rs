@@ -77,6 +77,11 @@ fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
         ),
         None => format!("An accuracy of {} took {spent} runs of the model, trials included.", significant(spending.accuracy)),
     });
+    texts.push(format!(
+        "Not excluded: that the output behaves differently within less than {} % of the range of a factor, between all of its values \
+         (95 %; `smallest_region`).",
+        significant(100.0 * spending.excluded_region)
+    ));
     texts.push("These lines instead of `accuracy` repeat the same run exactly.".to_owned());
     texts
 }

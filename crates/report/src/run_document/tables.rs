@@ -70,9 +70,7 @@ fn effects<'a>(
         .value("name", |line| &line.name)
         .index("S_1", "first_order", |line| Some(line.first_order))
         .number("S_T", |line| match line.total {
-            Estimate { estimate: 0.0, interval: Some(Interval { low: 0.0, high: 0.0 }) } => {
-                "no effect in any run".into()
-            }
+            Estimate { estimate: 0.0, interval: Some(Interval { low: 0.0, high: 0.0 }) } => "no effect".into(),
             total => Cell::from(total),
         })
         .estimate("total", |line| Some(line.total))
