@@ -157,3 +157,30 @@ fn samples_are_rounded_up_to_whole_replicates() {
     assert_eq!(design.settings().base_samples, 1008);
     assert!(!design.balanced());
 }
+
+#[test]
+fn replicates_do_not_share_the_dependences_of_digits() {
+    // The first digits of 16 columns are linear functions of the ten digits of a point's number: at least six sums of
+    // columns are constant in every replicate. Without permutations they are the same ones in all four.
+    let settings = DesignSettings { base_samples: 4096, ..DesignSettings::default() };
+    let design = Design::new(settings, 8, Rows::plain(Vec::new())).unwrap();
+    let digits = |replicate| -> Vec<u16> {
+        let columns = design.first_points(replicate, 1024);
+        let of_row = |row: usize| columns.iter().fold(0, |digits, column| 2 * digits + u16::from(column[row] < 0.5));
+        (1..1024).map(|row| of_row(row) ^ of_row(0)).collect()
+    };
+    assert!((0..4).all(|replicate| rank(digits(replicate)) <= 10));
+    assert_eq!(rank((0..4).flat_map(digits).collect()), 16);
+}
+
+/// The number of linearly independent ones among these bit vectors.
+fn rank(mut vectors: Vec<u16>) -> usize {
+    let mut rank = 0;
+    for bit in 0..16 {
+        let Some(place) = vectors.iter().position(|vector| vector >> bit & 1 == 1) else { continue };
+        let pivot = vectors.swap_remove(place);
+        vectors.iter_mut().filter(|vector| **vector >> bit & 1 == 1).for_each(|vector| *vector ^= pivot);
+        rank += 1;
+    }
+    rank
+}

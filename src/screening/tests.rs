@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use super::points::Trajectories;
 use super::*;
 use crate::design::{DesignError, Sampler};
-use crate::model::{Batch, RowFailure, RunContext, Worker};
+use crate::model::{Batch, Output, RowFailure, RunContext, Worker};
 use crate::space::{Distribution, Factor};
 use apportion_base::quantity::Unit;
 
@@ -110,7 +110,12 @@ fn a_linear_function_has_its_slopes_and_no_spread() {
         assert_eq!(screening.outputs[0].factors[1].reading, Some(Reading::Linear));
         assert_eq!(screening.outputs[0].factors[3].reading, None);
         let fixable: Vec<_> = screening.outputs[0].factors.iter().map(|factor| factor.could_be_fixed).collect();
-        assert_eq!(fixable, [Some(false), Some(false), Some(true), Some(true)]);
+        // Fewer than 3 in 16 effects of the fourth factor are not 0, which is too many for it to be fixed.
+        assert_eq!(fixable, [Some(false), Some(false), Some(true), Some(false)]);
+        let idle = measured(&screening)[3].mu_star.interval.unwrap();
+        assert!(idle.low == 0.0 && (idle.high / (RULE_OF_THREE / 16.0 * 23.0 / 3.0) - 1.0).abs() < 1e-6, "{idle:?}");
+        let longer = screened(&space, settings(design, 64), |x| Some(x.iter().zip(slopes).map(|(x, c)| x * c).sum()));
+        assert_eq!(longer.outputs[0].factors[3].could_be_fixed, Some(true));
     }
 }
 

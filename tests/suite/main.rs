@@ -66,4 +66,5 @@ mod trade;
 mod trade_extremes;
 mod two_models;
 mod units;
+mod unseen;
 mod workflows;

@@ -33,7 +33,15 @@ fn a_common_error_does_not_change_the_order() {
 fn coordinates_keep_lengths_and_angles() {
     let directions = vec![vec![1.0, 0.0, 0.0], vec![0.6, 0.8, 0.0], vec![1.0, 0.0, 0.0], vec![0.0; 3]];
     let short = coordinates(directions);
-    assert_eq!(short, [vec![1.0], vec![0.6, 0.8], vec![1.0, 0.0], vec![0.0, 0.0]]);
+    assert_eq!(short, [vec![1.0], vec![0.6, 0.8], vec![1.0, 0.0], vec![0.0, 0.0, 1.0]]);
+}
+
+#[test]
+fn what_no_part_moves_may_still_be_first() {
+    let (moved, unmoved) = (vec![vec![1.0, -1.0]], vec![vec![0.0, 0.0]]);
+    let got = first(&[0.1, 0.0], &[error(1e-9, 1e6), error(0.1, 1e6)], &[&moved, &unmoved], 1).unwrap();
+    // Phi(-1) = 0.1587.
+    assert!((got[1] - 0.1587).abs() < 0.02, "{got:?}");
 }
 
 #[test]

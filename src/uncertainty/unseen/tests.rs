@@ -6,12 +6,16 @@ fn moments(a: &[f64], b: &[f64], ab: &[&[f64]]) -> Moments {
 }
 
 #[test]
-fn only_a_factor_that_changes_no_row_is_without_effect() {
+fn only_a_factor_that_is_not_read_is_without_effect() {
     let (a, b) = ([0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
     let moments = moments(&a, &b, &[&b, &a]);
     let layout = Layout::plain(2);
     let values = crate::estimate::quantities(&layout, &moments).unwrap();
-    let unseen = unseen(&layout, &moments, &values);
+    let of_rows = unseen(&layout, &moments, &values, &[]);
+    // No row shows the second factor, nor excludes it.
+    assert_eq!(of_rows.effects[1].total.half_width, 1.0);
+    assert_eq!(of_rows.effects[1].interaction, of_rows.effects[1].total);
+    let unseen = unseen(&layout, &moments, &values, &[false, true]);
     let of = |factor: usize| unseen.effects[factor].first_order;
     // R^2/V = 4, and fewer than 3 of 4 rows: no bound but that of an index.
     assert_eq!(of(0).half_width, 1.0);
