@@ -5,7 +5,7 @@
 //! can also be called one by one: a [`Design`] generates points by row number, a [`Worker`] of the model evaluates
 //! them, an [`Estimator`] computes indices from sums, and an [`IntervalMethod`] computes their confidence intervals.
 //!
-//! There are also indices from [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of [`salib`].
+//! There are also indices from [`given`] data, [`screening`] and [`sweep`]s.
 //!
 //! # Related crates
 //!
@@ -63,7 +63,6 @@ pub mod model;
 pub mod result;
 pub mod run;
 mod runner;
-pub mod salib;
 pub mod screening;
 pub mod space;
 pub mod study;

@@ -1,6 +1,5 @@
 //! The results of a run for one output.
 
-use serde_json::Map;
 use thiserror::Error;
 
 use super::finished_run::{FinishedRun, named_inputs, outputs_kept, row_inputs};
@@ -144,7 +143,7 @@ fn output_warnings(
 }
 
 /// Returns the relation of the `samples` of an output to its most influential factors; `None` without indices of
-/// factors, and at points of SALib, whose inputs are unknown.
+/// factors.
 fn scatter(
     study: &Study,
     result: &OutputResult,
@@ -152,7 +151,7 @@ fn scatter(
     samples: &[Vec<f64>],
     unit: &Unit,
 ) -> Option<ScatterRecord> {
-    let is_of_factors = !study.analysis.salib && study.analysis.indices_of == IndicesOf::Factors;
+    let is_of_factors = study.analysis.indices_of == IndicesOf::Factors;
     let indices = result.indices.as_deref().filter(|_| is_of_factors)?;
     scatter_record(rows, &study.space, (unit, samples), indices)
 }
@@ -178,15 +177,11 @@ fn moments_of_all_rows(
 }
 
 fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureCount {
-    let mut first_inputs = Map::new();
-    if !run.study.analysis.salib {
-        first_inputs = named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
-    }
     FailureCount {
         reason: failure.to_string(),
         runs: tally.count,
         first_row: tally.first.row(run.design),
-        first_inputs,
+        first_inputs: named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first)),
     }
 }
 

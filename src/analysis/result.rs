@@ -82,10 +82,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
     let options = &study.analysis;
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
-    let (first_order, total) = match options.salib {
-        true => (FirstOrder::Saltelli2010, Total::Jansen1999),
-        false => (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba())),
-    };
+    let (first_order, total) = (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba()));
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,

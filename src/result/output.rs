@@ -204,7 +204,7 @@ pub struct FailureCount {
     pub runs: u64,
     /// Row number of the first of them in the design.
     pub first_row: u64,
-    /// The factor values of that row, in the units of the factors; empty for SALib's points, which are unknown.
+    /// The factor values of that row, in the units of the factors.
     pub first_inputs: Map<String, Value>,
 }
 

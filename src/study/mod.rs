@@ -217,7 +217,6 @@ impl Study {
         Layout {
             effects: self.effects().into_iter().map(|effect| effect.effect).collect(),
             estimators: self.analysis.estimators.clone(),
-            salib: self.analysis.salib,
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.has_shapley(&self.space),
