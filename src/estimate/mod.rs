@@ -37,12 +37,23 @@ pub(crate) use quantities::quantities;
 pub use second_order::second_order;
 pub(crate) use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
 pub(crate) use swap_moments::{BaMoments, SwapMoments};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 pub use workspace::Workspace;
 
 /// Why an output has no indices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Undefined {
+    /// A `share` of the runs failed, more than the share that the study allows, both from 0 to 1.
+    #[error(
+        "{:.3} % of the runs failed, more than the {} % that are allowed: the other runs would not represent the factor space",
+        100.0 * share,
+        100.0 * allowed
+    )]
+    TooManyFailed { share: f64, allowed: f64 },
     /// Every base point lost at least one of its runs.
     #[error("fewer than two base points have all of their runs: no index can be estimated")]
     NoRuns,
@@ -57,12 +68,6 @@ pub enum Undefined {
     /// The variance is too large or too small for a double.
     #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
     Unrepresentable,
-    /// An estimator needs rows that the design does not have.
-    #[error("the estimator {estimator} needs rows BA that the design does not have")]
-    NoRowsBa {
-        /// Name of the estimator.
-        estimator: &'static str,
-    },
 }
 
 /// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.

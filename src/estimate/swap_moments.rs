@@ -54,8 +54,8 @@ impl SwapMoments {
     /// that is not finite is a failure.
     pub(super) fn from_columns(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
         // A sum over a column is finite only if the column is, so that no separate pass for failures is needed.
-        let whole = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
-        whole.unwrap_or_else(|| {
+        let complete = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
+        complete.unwrap_or_else(|| {
             let mut kept = std::mem::take(&mut work.kept);
             let columns = columns.without_failures(&mut kept);
             let moments = Self::of_complete(BaseMoments::from_columns(columns.a, columns.b), columns, work);

@@ -4,11 +4,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
 
+use super::warning::Warning;
 #[cfg(feature = "schema")]
-use super::warning::WithText;
-use super::warning::{Warning, with_texts};
+use super::with_text::WithText;
+use super::with_text::{with_text, with_texts};
 use super::{EstimatorRecord, Named, NoiseRecord, OutputDistribution, PairRecord, SurrogateRecord};
 use crate::effect::IndexPair;
+use crate::estimate::Undefined;
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
 
@@ -67,10 +69,12 @@ pub struct OutputResult {
     /// Its relation to its most influential factors; `null` without indices, or if a number exceeds double precision.
     pub scatter: Option<ScatterRecord>,
     /// Why there are no indices, if there are none.
-    pub reason: Option<String>,
+    #[serde(serialize_with = "with_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<WithText<Undefined>>"))]
+    pub reason: Option<Undefined>,
     /// Why its numbers may be wrong, or less accurate than they look.
     #[serde(serialize_with = "with_texts")]
-    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<'static>>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<Warning>>"))]
     pub warnings: Vec<Warning>,
 }
 
@@ -105,7 +109,7 @@ impl OutputResult {
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {
         indices.ok_or_else(|| LookupError::NoIndices {
             output: self.name.clone(),
-            reason: self.reason.clone().unwrap_or_else(|| "they were not estimated".to_owned()),
+            reason: self.reason,
         })
     }
 }
@@ -227,6 +231,6 @@ pub enum LookupError {
     #[error("there is no {what} `{name}`; there are: {}", existing.join(", "))]
     UnknownName { what: &'static str, name: String, existing: Vec<String> },
     /// The output has no indices.
-    #[error("output `{output}` has no indices: {reason}")]
-    NoIndices { output: String, reason: String },
+    #[error("output `{output}` has no indices: {}", reason.map_or("they were not estimated".to_owned(), |reason| reason.to_string()))]
+    NoIndices { output: String, reason: Option<Undefined> },
 }

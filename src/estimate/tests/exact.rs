@@ -106,7 +106,7 @@ fn aggregated_indices_are_means_weighted_by_variances() {
         [factorial(f).moments(), factorial(g).moments(), factorial(|_, _| 7.0).moments()];
     let (vf, vg) = (partial_variances(f), partial_variances(g));
     let listed = |moments: &Moments| {
-        let indices = Indices::by(moments, FirstOrder::Saltelli2010, Total::Jansen1999)?;
+        let indices = Indices::from_moments(moments)?;
         Ok((moments.variance(), [indices.first_order, indices.total].concat()))
     };
     let all = [listed(&f_moments), listed(&g_moments), listed(&constant)];

@@ -153,7 +153,8 @@ pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart 
         }
         return chart;
     }
-    let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
+    let beyond = || "its values are beyond double precision in this unit".to_owned();
+    let reason = output.reason.map_or_else(beyond, |reason| reason.to_string());
     let panel = Panel::new(Axis::new(output_words, ""), Axis::new("probability density", ""));
     Chart::new(title, format!("No distribution of {}: {reason}.", name(&output.name))).panels([panel])
 }
