@@ -70,7 +70,7 @@ mod surrogate;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use apportion_base::quantity::{Unit, UnitError, Unlikely};
+pub use apportion_base::quantity::Unit;
 pub use correction::LowFidelityUse;
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use effect::IndexPair;

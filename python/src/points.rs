@@ -60,5 +60,5 @@ pub fn given_data(
 #[pyfunction]
 pub fn unlikely(y: PyReadonlyArray1<'_, f64>) -> Option<String> {
     let y = y.as_array().to_vec();
-    apportion::Unlikely::find(&y).map(|unlikely| unlikely.in_table(unlikely.first + 1))
+    apportion_base::quantity::Unlikely::find(&y).map(|unlikely| unlikely.in_table(unlikely.first + 1))
 }

@@ -12,7 +12,7 @@ use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Moments, Undefined, merged};
 use crate::model::{Output, RowFailure};
-use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
+use crate::result::{FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
 use crate::study::Study;
@@ -159,7 +159,7 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
     FailureCount {
         reason: failure.to_string(),
         runs: tally.count,
-        first_row: tally.first.row(run.design),
+        first_row: Some(tally.first.row(run.design)),
         first_inputs: named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first)),
     }
 }
@@ -171,7 +171,7 @@ fn distribution_record(
     samples: &[Vec<f64>],
     unit: &Unit,
     is_item: bool,
-) -> Option<DistributionRecord> {
+) -> Option<OutputDistribution> {
     let kept: Vec<f64> = samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut sample = OutputDistribution::from_values(&kept, unit)?;
     let (min, max) = values.range()?;
@@ -191,5 +191,6 @@ fn distribution_record(
     let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
     let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
     let representable = all.into_iter().all(f64::is_finite);
-    representable.then_some(DistributionRecord { values: n, sample })
+    sample.values = n;
+    representable.then_some(sample)
 }

@@ -35,9 +35,9 @@ pub(crate) use point_outputs::PointOutputs;
 pub(crate) use products::{ProductWork, Products};
 pub(crate) use quantities::quantities;
 pub use second_order::second_order;
+use serde::{Deserialize, Serialize};
 pub(crate) use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
 pub(crate) use swap_moments::{BaMoments, SwapMoments};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 pub use workspace::Workspace;
 

@@ -236,11 +236,7 @@ fn base_moments(next: &mut impl FnMut() -> f64, all: &BaseMoments) -> (BaseMomen
     (base, (a, b))
 }
 
-fn swap_moments(
-    next: &mut impl FnMut() -> f64,
-    (base, (a, b)): (BaseMoments, Gaps),
-    all: &SwapMoments,
-) -> SwapMoments {
+fn swap_moments(next: &mut impl FnMut() -> f64, (base, (a, b)): (BaseMoments, Gaps), all: &SwapMoments) -> SwapMoments {
     let n = if base.n == 0 { 1.0 } else { base.n as f64 };
     let [d, dd, ad, bd] = std::array::from_fn(|_| next());
     let ba = all.ba.map(|ba| {

@@ -64,8 +64,8 @@ pub struct OutputResult {
     pub surrogate_trial: Option<SurrogateTrial>,
     /// The indices and their intervals at stages of the run, without surrogates.
     pub convergence: Vec<StageRecord>,
-    /// The distribution of its values; `null` if no run succeeded, or if a number exceeds double precision.
-    pub distribution: Option<DistributionRecord>,
+    /// The distribution of its values in the rows A and B; `null` if no run succeeded, or if a number exceeds double precision.
+    pub distribution: Option<OutputDistribution>,
     /// Its relation to its most influential factors; `null` without indices, or if a number exceeds double precision.
     pub scatter: Option<ScatterRecord>,
     /// Why there are no indices, if there are none.
@@ -107,10 +107,7 @@ impl OutputResult {
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {
-        indices.ok_or_else(|| LookupError::NoIndices {
-            output: self.name.clone(),
-            reason: self.reason,
-        })
+        indices.ok_or_else(|| LookupError::NoIndices { output: self.name.clone(), reason: self.reason })
     }
 }
 
@@ -126,17 +123,6 @@ pub(super) fn find<'a, T>(
         name: name.to_owned(),
         existing: all.iter().map(|one| name_of(one).clone()).collect(),
     })
-}
-
-/// The distribution of the values of an output, from the rows A and B.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct DistributionRecord {
-    /// Number of values for mean, standard deviation, skewness, kurtosis and range: those of all rows A and B.
-    pub values: u64,
-    /// The rest; quantiles, histogram and density use the `count` values that were kept, the first of every replicate.
-    #[serde(flatten)]
-    pub sample: OutputDistribution,
 }
 
 /// The indices at a stage of the run, with the given number of base points.
@@ -206,8 +192,9 @@ pub struct FailureCount {
     pub reason: String,
     /// Number of runs.
     pub runs: u64,
-    /// Row number of the first of them in the design.
-    pub first_row: u64,
+    /// Row number of the first of them in the design; none in a screening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_row: Option<u64>,
     /// The factor values of that row, in the units of the factors.
     pub first_inputs: Map<String, Value>,
 }

@@ -231,10 +231,7 @@ fn every_estimator_finds_the_indices_of_an_interaction() {
     for (swap, (first, all)) in exact.into_iter().enumerate() {
         // 1024 points of a smooth function: an error of some 5e-3, and 2e-2 for Owen's formula of the total index.
         for estimator in FirstOrder::ALL {
-            assert!(
-                (estimator.estimate(&output.moments.sum(), swap) - first).abs() < 0.05,
-                "{estimator:?} of {swap}"
-            );
+            assert!((estimator.estimate(&output.moments.sum(), swap) - first).abs() < 0.05, "{estimator:?} of {swap}");
         }
         for estimator in Total::ALL {
             assert!((estimator.estimate(&output.moments.sum(), swap) - all).abs() < 0.1, "{estimator:?} of {swap}");
@@ -246,9 +243,8 @@ fn every_estimator_finds_the_indices_of_an_interaction() {
 #[test]
 fn a_dummy_factor_is_the_noise_of_the_model() {
     let rows = || Rows::plain(vec![vec![0], vec![1], vec![]]);
-    let total = |model: &Of| {
-        crate::estimate::Indices::from_moments(&with_rows(rows(), model).moments.sum()).unwrap().total[2]
-    };
+    let total =
+        |model: &Of| crate::estimate::Indices::from_moments(&with_rows(rows(), model).moments.sum()).unwrap().total[2];
     assert_eq!(total(&Of::new(|x, _| x[0] + x[1])), 0.0);
     // Noise of +-0.1 from row to row and a variance of 1/6: 0.01/(1/6 + 0.01) of the all.
     let noisy = total(&Of::new(|x, row| {

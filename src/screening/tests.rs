@@ -312,7 +312,7 @@ fn failed_runs_drop_their_effects_and_are_counted() {
         assert_eq!(output.factors.iter().map(|factor| factor.dropped).collect::<Vec<_>>(), dropped);
         assert!(output.factors.iter().all(|factor| factor.effects + factor.dropped == 64));
         assert_eq!((screening.failed, output.failures.len(), output.failures[0].runs), (failed, 1, failed));
-        assert!(output.failures[0].first_inputs.values().nth(1).and_then(Value::as_f64).unwrap() > 0.7);
+        assert!(output.failures[0].first_inputs.values().nth(1).and_then(serde_json::Value::as_f64).unwrap() > 0.7);
         for (factor, slope) in output.factors.iter().zip([1.0, 2.0, 0.0]) {
             assert!((factor.mu.unwrap().estimate - slope).abs() < 1e-13);
         }

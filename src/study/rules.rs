@@ -90,11 +90,8 @@ pub(super) fn checked_options(
     let (factors, intervals) = (space.factors().len(), options.intervals);
     if !intervals.serves(sampler) {
         let serving = IntervalMethod::ALL.into_iter().filter(|method| method.serves(sampler)).map(IntervalMethod::name);
-        let expected = format!(
-            "one of {} for points of the sampler {}",
-            serving.collect::<Vec<_>>().join(", "),
-            sampler.name()
-        );
+        let expected =
+            format!("one of {} for points of the sampler {}", serving.collect::<Vec<_>>().join(", "), sampler.name());
         return wrong("intervals", expected, intervals.name());
     }
     for (key, value) in [("threshold", options.threshold), ("max_failed", options.max_failed)] {

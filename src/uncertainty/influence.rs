@@ -33,7 +33,8 @@ impl Influences {
         n: f64,
         of_parts: &[f64],
     ) -> Self {
-        let columns = without.iter().zip(of_parts).map(|(without, n_p)| influence(&estimates, without.as_ref(), n, *n_p));
+        let columns =
+            without.iter().zip(of_parts).map(|(without, n_p)| influence(&estimates, without.as_ref(), n, *n_p));
         let columns: Vec<Vec<f64>> = columns.collect();
         let parts = (0..estimates.len()).map(|q| by_replicate(replicates, &columns, q)).collect();
         Self { estimates, parts }

@@ -32,7 +32,10 @@ fn only_the_first_reasons_are_counted_separately() {
     let listed: Vec<_> = all.iter().collect();
     assert_eq!(listed.len(), MAX_REASONS + 1);
     assert!(listed[..MAX_REASONS].iter().enumerate().all(|(k, (reason, _))| reason.to_string() == word(k as u32)));
-    assert_eq!((listed[100].0.to_string().as_str(), listed[100].1.count, listed[100].1.first.point), (OTHERS, 200, 100));
+    assert_eq!(
+        (listed[100].0.to_string().as_str(), listed[100].1.count, listed[100].1.first.point),
+        (OTHERS, 200, 100)
+    );
 }
 
 proptest! {

@@ -1,7 +1,7 @@
 //! Comparisons of two results.
 
-use apportion::{Estimate, Undefined};
 use apportion::result::{StudyResult, json};
+use apportion::{Estimate, Undefined};
 use apportion_report::comparison::{
     CompareError, ComparedIndex, ComparisonFile, NamedResult, compare_results, comparison_document,
 };

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::{Unlikely, Warning};
+use apportion::Warning;
 use apportion_base::files::read_text;
-use apportion_base::quantity::Unit;
+use apportion_base::quantity::{Unit, Unlikely};
 use apportion_files::exchange::{Answers, AnswersRequest, Manifest, Missing, open_table, read_answers};
 
 use super::output::OutputArguments;
