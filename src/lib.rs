@@ -76,8 +76,8 @@ pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequen
 pub use effect::IndexPair;
 pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
-    Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
-    GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
+    Batch, Counter, CounterKind, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel, GiveUp,
+    KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
     SeriesAxis, SeriesError, Worker, function_model,
 };
 pub use result::{LookupError, OutputResult, StudyResult, Warning};
