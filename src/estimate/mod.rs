@@ -1,6 +1,6 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`SecondOrder`] are the
+//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`second_order`] are the
 //! formulas on these sums. Indices are the results of the
 //! formulas, never clamped: a first-order index of -0.001 means that 0 is within its error.
 

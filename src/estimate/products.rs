@@ -5,7 +5,7 @@
 
 use super::pair_moments::PairMoments;
 use super::swap_moments::BaMoments;
-use super::workspace::difference;
+use super::workspace::{Differences, difference};
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
 /// The letters that form products: 1 at a base point that counts, and the outputs and differences of [`SwapMoments`]
@@ -46,8 +46,8 @@ pub struct Products {
 pub struct ProductWork {
     base: [Vec<f64>; LETTERS],
     swap: [Vec<f64>; LETTERS],
-    /// D and E of every swap, for pairs, not centred.
-    differences: Vec<[Vec<f64>; 2]>,
+    /// Those of every swap, for pairs, not centred.
+    differences: Vec<Differences>,
 }
 
 impl Products {
@@ -137,20 +137,20 @@ impl Products {
         &self,
         block: &BlockOutputs<'_>,
         mask: &[f64],
-        differences: &mut Vec<[Vec<f64>; 2]>,
+        differences: &mut Vec<Differences>,
         columns: &mut impl Iterator<Item = &'c mut [f64]>,
     ) {
         if self.pairs.is_empty() {
             return;
         }
         differences.resize_with(self.own.len(), Default::default);
-        for (swap, [d, e]) in differences.iter_mut().enumerate() {
+        for (swap, Differences { d, e }) in differences.iter_mut().enumerate() {
             for (into, row, origin) in [(d, block.ab[swap], block.a), (e, block.ba[swap], block.b)] {
                 difference(row, origin, into);
             }
         }
         for (j, k, own) in &self.pairs {
-            let product = |i: usize| differences[*j][1][i] * differences[*k][0][i];
+            let product = |i: usize| differences[*j].e[i] * differences[*k].d[i];
             let counts = |i: usize| if *own { product(i).is_finite() } else { mask[i] > 0.0 };
             if *own && let Some(column) = columns.next() {
                 column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(counts(i))));

@@ -220,7 +220,7 @@ fn a_walk_visits_all_levels_and_orders() {
     let (mut orders, mut starts) = (BTreeSet::new(), [0; 4]);
     for number in 0..settings.trajectories {
         let moves = points.moves(number);
-        orders.insert(moves.iter().map(|m| m.rows[0]).collect::<Vec<_>>());
+        orders.insert(moves.iter().map(|m| m.before).collect::<Vec<_>>());
         starts[(moves[0].u[0] * 3.0).round() as usize] += 1;
         let step = if number % 2 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
         assert!(moves.iter().all(|m| (m.step.abs() - step).abs() < 1e-15));
@@ -305,7 +305,7 @@ fn failed_runs_drop_their_effects_and_are_counted() {
             }
             failed += rows[1].iter().filter(|&&u| u > 0.7).count() as u64;
             for (count, m) in dropped.iter_mut().zip(&moves) {
-                *count += u64::from(m.rows.iter().any(|&row| rows[1][row] > 0.7));
+                *count += u64::from([m.before, m.after].iter().any(|&row| rows[1][row] > 0.7));
             }
         }
         assert!(failed > 0);

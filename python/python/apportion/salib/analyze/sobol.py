@@ -66,7 +66,7 @@ def analyze(
     y = numbers(Y, "the outputs are").ravel()
     step = (2 if calc_second_order else 1) * d + 2
     if y.size < 2 * step or y.size % step:
-        raise StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
+        raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
     if unlikely := _engine.unlikely(y):
         warnings.warn(unlikely, stacklevel=2)
     rows = y.reshape(-1, step)
@@ -74,7 +74,7 @@ def analyze(
     if len(rows) < n:
         warnings.warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out", stacklevel=2)
     if len(rows) < 2 or np.ptp(rows) == 0:
-        raise StudyError("no indices: the outputs do not vary")
+        raise _engine.StudyError("no indices: the outputs do not vary")
     first, total, pairs = (of[0] for of in _indices(rows, d, np.full((1, len(rows)), 1 / len(rows))))
     of_first, of_total, of_pairs = _indices(rows, d, _drawn(len(rows), num_resamples, rng))
 
