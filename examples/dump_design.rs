@@ -13,7 +13,7 @@ mod measures;
 
 use std::path::Path;
 
-use apportion::estimate::{Moments, SecondOrder, Workspace};
+use apportion::estimate::{Moments, Workspace, second_order};
 use apportion::{DesignSettings, FirstOrder, Sampler, SobolSequence, Total};
 use apportion_report::{prepare_folder, write_atomically};
 use outputs::{Outputs, design, function, inputs};
@@ -55,12 +55,9 @@ fn indices(moments: &Moments) -> Value {
         FirstOrder::ALL.into_iter().map(|e| (e.name().into(), of_swaps(&|j| e.estimate(moments, j)))).collect();
     let total: Map<_, _> =
         Total::ALL.into_iter().map(|e| (e.name().into(), of_swaps(&|j| e.estimate(moments, j)))).collect();
-    let pairs = |e: SecondOrder| -> Value {
-        let swaps = moments.pairs().map_or(&[][..], |pairs| pairs.swaps());
-        let pairs = swaps.iter().flat_map(|&j| swaps.iter().filter(move |k| **k > j).map(move |&k| (j, k)));
-        pairs.map(|(j, k)| json!([j, k, e.estimate(moments, j, k)])).collect()
-    };
-    let second: Map<_, _> = SecondOrder::ALL.into_iter().map(|e| (e.name().into(), pairs(e))).collect();
+    let swaps = moments.pairs().map_or(&[][..], |pairs| pairs.swaps());
+    let pairs = swaps.iter().flat_map(|&j| swaps.iter().filter(move |k| **k > j).map(move |&k| (j, k)));
+    let second: Vec<_> = pairs.map(|(j, k)| json!([j, k, second_order(moments, j, k)])).collect();
     json!({ "first_order": first, "total": total, "second_order": second })
 }
 

@@ -5,7 +5,7 @@
 //! can also be called one by one: a [`Design`] generates points by row number, a [`Worker`] of the model evaluates
 //! them, an [`Estimator`] computes indices from sums, and an [`IntervalMethod`] computes their confidence intervals.
 //!
-//! There are also indices from [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of [`salib`].
+//! There are also indices from [`given`] data, [`screening`] and [`sweep`]s.
 //!
 //! # Related crates
 //!
@@ -63,7 +63,6 @@ pub mod model;
 pub mod result;
 pub mod run;
 mod runner;
-pub mod salib;
 pub mod screening;
 pub mod space;
 pub mod study;
@@ -71,14 +70,14 @@ mod surrogate;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use apportion_base::quantity::{Unit, UnitError, Unlikely};
+pub use apportion_base::quantity::Unit;
 pub use correction::LowFidelityUse;
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use effect::IndexPair;
 pub use estimate::{Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
-    Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
-    GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
+    Batch, Counter, CounterKind, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel, GiveUp,
+    KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
     SeriesAxis, SeriesError, Worker, function_model,
 };
 pub use result::{LookupError, OutputResult, StudyResult, Warning};

@@ -21,7 +21,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<function::Stop>()?;
     module.add_function(wrap_pyfunction!(distributions::distributions, module)?)?;
     module.add_function(wrap_pyfunction!(points::given_data, module)?)?;
-    module.add_function(wrap_pyfunction!(points::salib_indices, module)?)?;
+    module.add_function(wrap_pyfunction!(points::unlikely, module)?)?;
     module.add_function(wrap_pyfunction!(document::read_document, module)?)?;
     Ok(())
 }

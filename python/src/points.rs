@@ -1,8 +1,6 @@
 //! Arrays of points and outputs that exist already.
 
-use apportion::AnalysisOptions;
 use apportion::given::{Column, analyse, measures as measured, surrogate_indices};
-use apportion::salib::{SalibLayout, SalibProblem, salib_study};
 use apportion_report::given::{GivenFacts, build_given, given_document};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -58,45 +56,9 @@ pub fn given_data(
     watched(py, work)?.map_err(|reason: String| input(reason))
 }
 
-/// Indices by SALib's formulas: first-order, total and second-order ones of the pairs in order, and warnings.
-type SalibIndices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<String>);
-
-/// First-order, total and second-order indices of outputs in SALib's layout, with what is to be known of them.
+/// What is unlikely among outputs, as a code for a missing value, if anything is.
 #[pyfunction]
-#[pyo3(signature = (y, d, *, second_order))]
-pub fn salib_indices(
-    py: Python<'_>,
-    y: PyReadonlyArray1<'_, f64>,
-    d: usize,
-    second_order: bool,
-) -> PyResult<SalibIndices> {
+pub fn unlikely(y: PyReadonlyArray1<'_, f64>) -> Option<String> {
     let y = y.as_array().to_vec();
-    let layout = if second_order { SalibLayout::SecondOrder } else { SalibLayout::FirstOrder };
-    let rows = layout.rows_per_point(d);
-    if d == 0 || y.is_empty() || !y.len().is_multiple_of(rows) || y.len() < 2 * rows {
-        return Err(input(format!("{} outputs: expected a multiple of {rows}, at least {}", y.len(), 2 * rows)));
-    }
-    let work = move |_: &Stop| -> Result<_, String> {
-        let problem = SalibProblem::of_inputs((0..d).map(|j| format!("x{j}")).collect());
-        let outputs = [Column { name: "y".to_owned(), values: y }];
-        let unlikely = apportion::Unlikely::find(&outputs[0].values).map(|found| found.in_table(found.first + 1));
-        let problem = problem.map_err(|error| error.to_string())?;
-        let made = salib_study("salib", &problem, &outputs, layout, (0, 0));
-        let (study, store) = made.map_err(|error| error.to_string())?;
-        // Nothing but the indices is shown.
-        let analysis = AnalysisOptions { convergence: false, pictures: false, ..study.analysis().clone() };
-        let settings = study.design().settings().clone();
-        let study = study.with_design(settings, analysis).map_err(|error| error.to_string())?;
-        let result = study.runner().store(&store).run().map_err(|error| error.to_string())?;
-        Ok((result, unlikely))
-    };
-    let (mut result, unlikely) = watched(py, work)?.map_err(input)?;
-    let output = result.outputs.remove(0);
-    let Some(indices) = output.indices else { return Err(input(output.reason.unwrap_or_default())) };
-    Ok((
-        indices.iter().map(|index| index.effect.first_order.estimate).collect(),
-        indices.iter().map(|index| index.effect.total.estimate).collect(),
-        output.second_order.unwrap_or_default().iter().map(|pair| pair.index.estimate).collect(),
-        unlikely.into_iter().chain(output.warnings.iter().map(ToString::to_string)).collect(),
-    ))
+    apportion_base::quantity::Unlikely::find(&y).map(|unlikely| unlikely.in_table(unlikely.first + 1))
 }

@@ -29,7 +29,7 @@ pub(super) fn aggregate_indices(
     // Output by output: the sums of all outputs at once, without each part, would fill the memory.
     let all: Vec<LeftOut<_>> =
         outputs.par_iter().map(|replicates| LeftOut::new(replicates, &variance_and_indices)).collect();
-    let whole = aggregated(all.iter().map(|output| &output.whole), scaling)?;
+    let estimates = aggregated(all.iter().map(|output| &output.of_all), scaling)?;
     let parts = all.iter().map(|output| output.without.len()).min().unwrap_or(0);
     let points_of_parts: Vec<f64> =
         (0..parts).map(|part| all.iter().map(|output| output.points_of_parts[part]).fold(0.0, f64::max)).collect();
@@ -37,8 +37,8 @@ pub(super) fn aggregate_indices(
     let without: Vec<Option<Vec<f64>>> =
         (0..parts).map(|part| aggregated(all.iter().map(|output| &output.without[part]), scaling).ok()).collect();
     let replicates = outputs.first().ok_or(Undefined::NoRuns)?;
-    let influences = Influences::new(replicates, whole, &without, points, &points_of_parts);
-    let kinds = vec![ErrorKind { side: Side::Above, is_pooled: true }; influences.whole.len()];
+    let influences = Influences::new(replicates, estimates, &without, points, &points_of_parts);
+    let kinds = vec![ErrorKind { side: Side::Above, is_pooled: true }; influences.estimates.len()];
     let judged = Judgement::from_nets(influences, method, &kinds);
     let (first_order, total) = judged.split_at(judged.len() / 2);
     let both = first_order.iter().zip(total).map(|(first_order, total)| agreeing(first_order.estimate, total.estimate));

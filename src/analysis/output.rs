@@ -1,8 +1,5 @@
 //! The results of a run for one output.
 
-use serde_json::Map;
-use thiserror::Error;
-
 use super::finished_run::{FinishedRun, named_inputs, outputs_kept, row_inputs};
 use super::first_rows::FirstRows;
 use super::indices::{add_indices, stage_record};
@@ -15,31 +12,12 @@ use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Moments, Undefined, merged};
 use crate::model::{Output, RowFailure};
-use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
+use crate::result::{FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
 use crate::study::Study;
 use crate::uncertainty::{Estimate, KeptPoints, OutputMoments};
 use apportion_base::quantity::Unit;
-
-/// Why an output has no indices.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-enum NoIndices {
-    /// More runs failed than the study allows.
-    #[error(
-        "{percent:.3} % of the runs failed, more than max_failed = {allowed} allows: the other runs would not represent the factor space",
-        percent = 100.0 * share
-    )]
-    TooManyFailed {
-        /// The share of the runs that failed, from 0 to 1.
-        share: f64,
-        /// The share that may fail.
-        allowed: f64,
-    },
-    /// The estimates do not exist.
-    #[error(transparent)]
-    Undefined(#[from] Undefined),
-}
 
 /// The first rows of the design, for results that need individual values.
 pub(super) struct OutputRows {
@@ -49,33 +27,33 @@ pub(super) struct OutputRows {
     pub measured: Option<MeasuredRows>,
 }
 
-/// Returns the result for output number `number`; `whole` holds the counts over all replicates.
+/// Returns the result for output number `number`; `counts` holds the counts over all replicates.
 pub(super) fn output_result(
     run: &FinishedRun<'_>,
     output: &Output,
     number: usize,
-    whole: &Totals,
+    counts: &Totals,
     corrected: &Corrections,
     rows: &OutputRows,
 ) -> OutputResult {
-    let (study, totals, unit) = (run.study, &whole.outputs[number], &output.unit);
+    let (study, totals, unit) = (run.study, &counts.outputs[number], &output.unit);
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
     let kept = outputs_kept(run.replicates, number);
-    let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
+    let surrogate = corrected.of_run.get(number).and_then(Option::as_ref);
     let (points, unread) = (KeptPoints::all(run.design, &kept), study.unread(run.model, number));
     let options = IntervalOptions { points, unread: &unread, surrogate, ..interval_options(study) };
-    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
+    let used = merged(&parts.iter().map(MomentParts::sum).collect::<Vec<_>>());
     let layout = study.layout();
     let share = totals.runs_failed as f64 / run.design.rows() as f64;
     let mut indices = match share > study.analysis.max_failed {
-        true => Err(NoIndices::TooManyFailed { share, allowed: study.analysis.max_failed }),
-        false => output_indices(&parts, &layout, &options).map_err(NoIndices::from),
+        true => Err(Undefined::TooManyFailed { share, allowed: study.analysis.max_failed }),
+        false => output_indices(&parts, &layout, &options),
     };
     let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
     let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
-    let warnings = output_warnings(run, number, whole, &used, indices.as_mut().ok(), corrected, &samples);
+    let warnings = output_warnings(run, number, counts, &used, indices.as_mut().ok(), corrected, &samples);
     let mut convergence = Vec::new();
     if let (Ok(indices), true) = (&indices, study.analysis.convergence) {
         let stages = stages(&parts, &layout, &options, indices, &|points| {
@@ -98,7 +76,7 @@ pub(super) fn output_result(
         measures: rows.measured.as_ref().and_then(|rows| rows.measures(&study.analysis.measures, number, &samples)),
         surrogate_trial: corrected.trials.get(number).copied().flatten(),
         convergence,
-        reason: indices.as_ref().err().map(ToString::to_string),
+        reason: indices.as_ref().err().copied(),
         warnings,
         ..OutputResult::default()
     };
@@ -119,15 +97,15 @@ pub(super) fn output_result(
 fn output_warnings(
     run: &FinishedRun<'_>,
     number: usize,
-    whole: &Totals,
+    counts: &Totals,
     used: &Moments,
     indices: Option<&mut OutputIndices>,
     corrected: &Corrections,
     samples: &[Vec<f64>],
 ) -> Vec<Warning> {
-    let (study, totals) = (run.study, &whole.outputs[number]);
+    let (study, totals) = (run.study, &counts.outputs[number]);
     let mut warnings = warnings::of_runs(run, totals.runs_failed, used);
-    warnings.extend(warnings::of_flags(run.model, whole));
+    warnings.extend(warnings::of_flags(run.model, counts));
     warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
     if let Some(indices) = indices {
         withdraw(indices, &corrected.rare, &study.effects());
@@ -144,7 +122,7 @@ fn output_warnings(
 }
 
 /// Returns the relation of the `samples` of an output to its most influential factors; `None` without indices of
-/// factors, and at points of SALib, whose inputs are unknown.
+/// factors.
 fn scatter(
     study: &Study,
     result: &OutputResult,
@@ -152,7 +130,7 @@ fn scatter(
     samples: &[Vec<f64>],
     unit: &Unit,
 ) -> Option<ScatterRecord> {
-    let is_of_factors = !study.analysis.salib && study.analysis.indices_of == IndicesOf::Factors;
+    let is_of_factors = study.analysis.indices_of == IndicesOf::Factors;
     let indices = result.indices.as_deref().filter(|_| is_of_factors)?;
     scatter_record(rows, &study.space, (unit, samples), indices)
 }
@@ -178,15 +156,11 @@ fn moments_of_all_rows(
 }
 
 fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureCount {
-    let mut first_inputs = Map::new();
-    if !run.study.analysis.salib {
-        first_inputs = named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
-    }
     FailureCount {
         reason: failure.to_string(),
         runs: tally.count,
-        first_row: tally.first.row(run.design),
-        first_inputs,
+        first_row: Some(tally.first.row(run.design)),
+        first_inputs: named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first)),
     }
 }
 
@@ -197,7 +171,7 @@ fn distribution_record(
     samples: &[Vec<f64>],
     unit: &Unit,
     is_item: bool,
-) -> Option<DistributionRecord> {
+) -> Option<OutputDistribution> {
     let kept: Vec<f64> = samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut sample = OutputDistribution::from_values(&kept, unit)?;
     let (min, max) = values.range()?;
@@ -217,5 +191,6 @@ fn distribution_record(
     let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
     let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
     let representable = all.into_iter().all(f64::is_finite);
-    representable.then_some(DistributionRecord { values: n, sample })
+    sample.values = n;
+    representable.then_some(sample)
 }

@@ -96,7 +96,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
     let influences = Influences::from_moments(replicates, &list)?;
     let judged = match options.by_points() {
         Some(by_points) => {
-            let bounds = by_points.bounds(merged_whole(replicates).without_swaps(), &influences.whole, &list);
+            let bounds = by_points.bounds(merged_parts(replicates).without_swaps(), &influences.estimates, &list);
             Judgement::with_bounds(influences, bounds)
         }
         // The mean may be missed on both sides, the variance above.
@@ -120,8 +120,8 @@ fn more_accurate(plain: &Judgement, corrected: &Judgement) -> Estimate {
     if corrected.error.error < plain.error.error { corrected.estimate } else { plain.estimate }
 }
 
-fn merged_whole(replicates: &[MomentParts]) -> Moments {
-    merged(&replicates.iter().map(MomentParts::whole).collect::<Vec<Moments>>())
+fn merged_parts(replicates: &[MomentParts]) -> Moments {
+    merged(&replicates.iter().map(MomentParts::sum).collect::<Vec<Moments>>())
 }
 
 /// Computes the indices of one output from the parts of its replicates.
@@ -133,14 +133,14 @@ pub fn output_indices(
     layout: &Layout,
     options: &IntervalOptions<'_>,
 ) -> Result<OutputIndices, Undefined> {
-    let whole = merged_whole(replicates);
-    Indices::from_moments(&whole)?;
-    let mut judged = judged(replicates, &whole, layout, options).ok_or(Undefined::NoRuns)?;
+    let all = merged_parts(replicates);
+    Indices::from_moments(&all)?;
+    let mut judged = judged(replicates, &all, layout, options).ok_or(Undefined::NoRuns)?;
     // If all rows agree, the plain indices have no noise that a surrogate could reduce.
     let mut exact = Vec::with_capacity(judged.effects.len());
     for (at, effect) in judged.effects.iter().enumerate() {
         let is_bound = effect.first_order.is_bound || effect.total.is_bound;
-        exact.push(is_bound || whole.swap(layout.swap(at)).inert());
+        exact.push(is_bound || all.swap(layout.swap(at)).inert());
     }
     let plain: Vec<IndexPair<Estimate>> = judged.effects.iter().map(EffectQuantities::index_estimates).collect();
     let mut used = None;
@@ -148,9 +148,9 @@ pub fn output_indices(
         let (corrected, of_surrogate) = correct(judged, layout, surrogate, &exact);
         judged = corrected;
         if of_surrogate.corrects_total && !of_surrogate.is_doubted && !surrogate.is_uncertain() {
-            let rest = surrogate.largest_rest(whole.count());
+            let rest = surrogate.largest_rest(all.count());
             for (at, effect) in judged.effects.iter_mut().enumerate() {
-                if whole.swap(layout.swap(at)).inert() {
+                if all.swap(layout.swap(at)).inert() {
                     effect.bound(surrogate.effects[at].total.estimate.max(0.0) + rest);
                 }
             }
@@ -195,17 +195,17 @@ pub fn output_indices(
 /// Computes all quantities with the errors that the plain rows show, and bounds on what they cannot show.
 fn judged(
     replicates: &[MomentParts],
-    whole: &Moments,
+    all: &Moments,
     layout: &Layout,
     options: &IntervalOptions<'_>,
 ) -> Option<Quantities<Judgement>> {
     let list = |moments: &Moments| quantities(layout, moments).map(Quantities::into_list);
-    let values = quantities(layout, whole)?;
+    let values = quantities(layout, all)?;
     let influences = Influences::from_moments(replicates, &list)?;
-    let unseen = unseen(layout, whole, &values, options.unread).into_list();
+    let unseen = unseen(layout, all, &values, options.unread).into_list();
     let mut judgements = match options.by_points() {
         Some(by_points) => {
-            let bounds = by_points.bounds(whole.clone(), &influences.whole, &list);
+            let bounds = by_points.bounds(all.clone(), &influences.estimates, &list);
             Judgement::with_bounds(influences, bounds)
         }
         None => {
@@ -222,7 +222,7 @@ fn judged(
     }
     let mut judged = values.zip(judgements).map(|_, (_, judgement)| judgement);
     for (at, effect) in judged.effects.iter().enumerate() {
-        if effect.effect.is_input() && whole.swap(layout.swap(at)).inert() {
+        if effect.effect.is_input() && all.swap(layout.swap(at)).inert() {
             for (sum, of) in
                 [(&mut judged.sums.first_order, &effect.first_order), (&mut judged.sums.total, &effect.total)]
             {
@@ -232,7 +232,7 @@ fn judged(
             }
         }
     }
-    let half_seen_at = judged.effects.iter_mut().enumerate().filter(|(at, _)| half_seen(whole, layout.swap(*at)));
+    let half_seen_at = judged.effects.iter_mut().enumerate().filter(|(at, _)| half_seen(all, layout.swap(*at)));
     for (_, effect) in half_seen_at {
         let more = effect.allow_for_half_seen();
         if let (Some(sum), true) = (&mut judged.sums.first_order.estimate.interval, effect.effect.is_input()) {
@@ -240,7 +240,7 @@ fn judged(
         }
     }
     for (at, effect) in judged.redrawn.iter_mut().enumerate() {
-        if half_seen(whole, layout.redrawn_swap(at)) {
+        if half_seen(all, layout.redrawn_swap(at)) {
             effect.allow_for_half_seen();
         }
     }

@@ -86,16 +86,23 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     rare
 }
 
+/// Levels of two factors.
+struct RarePair {
+    /// The less likely one.
+    level: Part,
+    partner: Part,
+}
+
 /// Returns the pair of levels that is rarest together, of which the more likely one is not rare itself.
-fn rarest_pair(mut levels: Vec<Part>) -> Option<[Part; 2]> {
+fn rarest_pair(mut levels: Vec<Part>) -> Option<RarePair> {
     levels.sort_by(|a, b| a.probability().total_cmp(&b.probability()));
     let partner = levels.iter().skip(1).position(|level| level.probability() >= MATTERS)? + 1;
     let partner = levels.swap_remove(partner);
-    Some([levels.swap_remove(0), partner])
+    Some(RarePair { level: levels.swap_remove(0), partner })
 }
 
 /// Returns two levels if they are expected together too rarely.
-fn rare_pair(space: &Space, [level, partner]: &[Part; 2], base_samples: u64) -> Option<RareLevel> {
+fn rare_pair(space: &Space, RarePair { level, partner }: &RarePair, base_samples: u64) -> Option<RareLevel> {
     let [factor, other] = [level, partner].map(|part| &space.factors()[part.factor].name);
     let (probability, values) = (level.probability() * partner.probability(), PAIRS_OF_POINT * base_samples);
     let draws = probability * values as f64;

@@ -26,10 +26,10 @@ use crate::uncertainty::IntervalMethod;
 /// Returns the result of a run; `stopped` is why a growing one ended.
 pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> StudyResult {
     let FinishedRun { study, model, design, replicates, low_fidelity, .. } = *run;
-    let mut whole = Totals::none(model);
-    replicates.iter().for_each(|totals| whole.add_counts(totals));
+    let mut counts = Totals::none(model);
+    replicates.iter().for_each(|totals| counts.add_counts(totals));
     let corrected = Corrections::new(run);
-    let series = series(run, &whole, &corrected.whole);
+    let series = series(run, &counts, &corrected.of_run);
     let wanted = &study.analysis.measures;
     let rows = OutputRows {
         scatter: study.analysis.pictures.then(|| rows_of_scatter(design)),
@@ -45,10 +45,10 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> Stud
         indices_of: study.analysis.indices_of,
         factors: factors.map(|factor| factor_record(study, factor)).collect(),
         outputs: outputs
-            .map(|(number, output)| output_result(run, output, number, &whole, &corrected, &rows))
+            .map(|(number, output)| output_result(run, output, number, &counts, &corrected, &rows))
             .collect(),
-        validity: ValidityRecord::of_flags(model.flags().iter().zip(whole.flags.iter().copied()), design.rows()),
-        effort: effort(model, &whole),
+        validity: ValidityRecord::of_flags(model.flags().iter().zip(counts.flags.iter().copied()), design.rows()),
+        effort: effort(model, &counts),
         aggregate: aggregate(run),
         series,
         stopping: stopped.map(|reason| stopping(study, reason)),
@@ -82,10 +82,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
     let options = &study.analysis;
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
-    let (first_order, total) = match options.salib {
-        true => (FirstOrder::Saltelli2010, Total::Jansen1999),
-        false => (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba())),
-    };
+    let (first_order, total) = (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba()));
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
@@ -127,13 +124,13 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
         weighting,
         indices: indices.as_ref().ok().map(|all| together_records(study, all, Effect::is_factor)),
         noise: indices.as_ref().ok().and_then(|all| together_records(study, all, |of| of == Effect::Noise).pop()),
-        reason: indices.err().map(|undefined| undefined.to_string()),
+        reason: indices.err(),
     })
 }
 
 /// Returns the effort of a model with a ladder of fidelities, by its counters.
-fn effort(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
-    let counts = || model.counters().iter().zip(whole.counts.values());
+fn effort(model: &dyn Model, counts: &Totals) -> Option<EffortRecord> {
+    let counts = || model.counters().iter().zip(counts.counts.values());
     let value = |name| counts().find(|(counter, _)| counter.name == name).map_or(0.0, |(_, value)| value);
     let rungs = counts().filter(|(_, runs)| *runs > 0.0).filter_map(|(counter, runs)| {
         Some(RungRecord { rung: counter.name.strip_prefix(Counter::RUNGS)?.to_owned(), runs: runs as u64 })

@@ -12,18 +12,18 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::Estimate;
 
-/// Returns the results for every series of the model; `whole` holds the counts over all replicates, `surrogates` the
+/// Returns the results for every series of the model; `counts` holds the counts over all replicates, `surrogates` the
 /// surrogate estimates of every output.
 pub(super) fn series(
     run: &FinishedRun<'_>,
-    whole: &Totals,
+    counts: &Totals,
     surrogates: &[Option<SurrogateEstimates>],
 ) -> Vec<SeriesRecord> {
     let mut records = Vec::new();
     for series in run.model.series() {
         let plain = together(run, series.places(), Scaling::Plain);
         let varying =
-            series.places().filter(|place| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
+            series.places().filter(|place| counts.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
         let corrected: Option<Vec<&SurrogateEstimates>> =
             varying.map(|place| surrogates.get(place)?.as_ref()).collect();
         let all = match corrected {
@@ -38,7 +38,7 @@ pub(super) fn series(
             first_output: series.first,
             positions: series.axis.positions().to_vec(),
             indices: all.as_ref().ok().map(|all| together_records(run.study, all, Effect::is_factor)),
-            reason: all.err().map(|undefined| undefined.to_string()),
+            reason: all.err(),
         });
     }
     records

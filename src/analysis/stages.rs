@@ -21,7 +21,7 @@ const MIN_PARTS: usize = 4;
 fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
     let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
     let mut sizes = Vec::new();
-    // Down from the largest power of two below the whole: prefixes of a net are nets.
+    // Down from the largest power of two below all points: prefixes of a net are nets.
     let mut size = parts.next_power_of_two() / 2;
     while size >= MIN_PARTS {
         sizes.push(size);
@@ -40,14 +40,14 @@ pub(super) fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
     points
 }
 
-/// Returns the stages of a run at each half of the one after it, `whole` last: every prefix of the parts of each
+/// Returns the stages of a run at each half of the one after it, `last` at the end: every prefix of the parts of each
 /// replicate is a run of its own. `surrogate` returns the surrogate estimates for a number of first base points of each
 /// replicate. Stages without indices are left out.
 pub(super) fn stages<'s>(
     replicates: &[MomentParts],
     layout: &Layout,
     options: &IntervalOptions<'_>,
-    whole: &OutputIndices,
+    last: &OutputIndices,
     surrogate: &dyn Fn(u64) -> Option<&'s SurrogateEstimates>,
 ) -> Vec<Stage> {
     let mut stages = Vec::new();
@@ -66,6 +66,6 @@ pub(super) fn stages<'s>(
         }
     }
     let base_samples = replicates.iter().map(MomentParts::points).sum();
-    stages.push(Stage { base_samples, indices: whole.clone() });
+    stages.push(Stage { base_samples, indices: last.clone() });
     stages
 }

@@ -73,12 +73,12 @@ fn surrogates_and_trials(
             numbers.push(number);
         }
     }
-    let whole: Vec<Vec<&PointOutputs>> = numbers.iter().map(|&number| kept[number].clone()).collect();
+    let all: Vec<Vec<&PointOutputs>> = numbers.iter().map(|&number| kept[number].clone()).collect();
     let longer: Vec<Option<SurrogateEstimates>> =
         numbers.iter().filter_map(|&number| longer.get(number).cloned()).collect();
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
     let mut best = vec![None; outputs];
-    let alone = surrogates_together(design, &families, &layout, &whole, &longer);
+    let alone = surrogates_together(design, &families, &layout, &all, &longer);
     for (alone, number) in alone.into_iter().zip(numbers) {
         let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
         for low in low_fidelity {
@@ -142,7 +142,7 @@ fn parts_of_trial(replicates: &[Totals], number: usize, design: &Design) -> Vec<
 
 /// The surrogate estimates of every output, at the end and at every stage of the run.
 pub(super) struct Corrections {
-    pub whole: Vec<Option<SurrogateEstimates>>,
+    pub of_run: Vec<Option<SurrogateEstimates>>,
     /// By the base points of a replicate.
     pub stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
     /// The gains by surrogates in trials of the outputs; empty for a run that grew.
@@ -155,19 +155,19 @@ impl Corrections {
     pub fn new(run: &FinishedRun<'_>) -> Self {
         let FinishedRun { study, design, replicates, low_fidelity, .. } = *run;
         let known = run.surrogates.map(|known| (known.to_vec(), Vec::new()));
-        let (whole, trials) =
+        let (of_run, trials) =
             known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, low_fidelity, &[]));
         let mut stages = BTreeMap::new();
-        if study.analysis.convergence && whole.iter().any(Option::is_some) {
+        if study.analysis.convergence && of_run.iter().any(Option::is_some) {
             // All outputs have the same parts.
             let parts: Vec<&MomentParts> =
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
             for points in points_of_stages(&parts) {
                 if let Ok(design) = design.with_points(points) {
-                    stages.insert(points, surrogates(study, &design, replicates, low_fidelity, &whole));
+                    stages.insert(points, surrogates(study, &design, replicates, low_fidelity, &of_run));
                 }
             }
         }
-        Self { whole, stages, trials, rare: rare_levels(&study.space, design) }
+        Self { of_run, stages, trials, rare: rare_levels(&study.space, design) }
     }
 }

@@ -30,11 +30,11 @@ pub enum DesignError {
         factors: usize,
     },
     /// There are no replicates.
-    #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]
+    #[error("no replicates: at least 1 is needed, and at least 2 for intervals")]
     NoReplicates,
     /// A replicate would have fewer than two base points, which have no variance.
     #[error(
-        "base_samples = {base_samples} is too few for {replicates} replicate{}: at least {} base samples are needed (2 in each replicate)",
+        "{base_samples} base samples are too few for {replicates} replicate{}: at least {} base samples are needed (2 in each replicate)",
         if *replicates == 1 { "" } else { "s" },
         u128::from(*replicates) * 2
     )]
@@ -45,13 +45,13 @@ pub enum DesignError {
         replicates: u64,
     },
     /// Too many replicates: each costs memory and a pass over the others.
-    #[error("replicates = {replicates}: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
+    #[error("{replicates} replicates: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
     TooManyReplicates {
         /// The number requested.
         replicates: u64,
     },
     /// More plain rows than fit in the memory of a block of base points.
-    #[error("plain_rows = {plain_rows}: at most {MAX_PLAIN_ROWS} for each base sample are possible")]
+    #[error("{plain_rows} plain rows: at most {MAX_PLAIN_ROWS} for each base sample are possible")]
     TooManyPlainRows {
         /// The number requested.
         plain_rows: u32,

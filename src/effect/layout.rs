@@ -11,8 +11,6 @@ pub struct Layout {
     pub effects: Vec<Effect>,
     /// Estimators whose indices are reported in addition to the default ones.
     pub estimators: Vec<Estimator>,
-    /// Whether the formulas of SALib replace the default ones.
-    pub salib: bool,
     /// Whether there are second-order indices of the factors.
     pub second_order: bool,
     /// Whether factors depend on each other.

@@ -21,16 +21,6 @@ impl Indices {
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
     pub fn from_moments(moments: &Moments) -> Result<Self, Undefined> {
-        let has_ba = moments.has_ba();
-        Self::by(moments, FirstOrder::default_for(has_ba), Total::default_for(has_ba))
-    }
-
-    /// Computes the indices by the given estimators.
-    ///
-    /// # Errors
-    /// [`Undefined`] if there are fewer than two base points, the output has no usable variance, or rows that an
-    /// estimator needs are missing.
-    pub fn by(moments: &Moments, first_order: FirstOrder, total: Total) -> Result<Self, Undefined> {
         if moments.count() < 2 {
             return Err(Undefined::NoRuns);
         }
@@ -38,11 +28,6 @@ impl Indices {
             return Err(Undefined::ZeroVariance);
         }
         usable_variance(moments.base())?;
-        for (estimator, needs_ba) in [(first_order.name(), first_order.needs_ba()), (total.name(), total.needs_ba())] {
-            if needs_ba && !moments.has_ba() && moments.swaps() > 0 {
-                return Err(Undefined::NoRowsBa { estimator });
-            }
-        }
         for swap in (0..moments.swaps()).map(|swap| moments.swap(swap)).filter(|swap| swap.base != *moments.base()) {
             if swap.base.n < 2 {
                 return Err(Undefined::NoRuns);
@@ -52,7 +37,8 @@ impl Indices {
             }
             usable_variance(&swap.base)?;
         }
-        let swaps = 0..moments.swaps();
+        let (swaps, has_ba) = (0..moments.swaps(), moments.has_ba());
+        let (first_order, total) = (FirstOrder::default_for(has_ba), Total::default_for(has_ba));
         let indices = Self {
             first_order: swaps.clone().map(|j| first_order.estimate(moments, j)).collect(),
             total: swaps.clone().map(|j| total.estimate(moments, j)).collect(),

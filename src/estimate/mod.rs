@@ -1,6 +1,6 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`SecondOrder`] are the
+//! [`Moments`] accumulate during the run; [`FirstOrder`], [`Total`] and [`second_order`] are the
 //! formulas on these sums. Indices are the results of the
 //! formulas, never clamped: a first-order index of -0.001 means that 0 is within its error.
 
@@ -17,7 +17,6 @@ mod parts;
 mod point_outputs;
 mod products;
 mod quantities;
-mod salib;
 mod second_order;
 mod shapley;
 mod swap_moments;
@@ -35,16 +34,26 @@ pub(crate) use parts::{MomentParts, merged, part_length};
 pub(crate) use point_outputs::PointOutputs;
 pub(crate) use products::{ProductWork, Products};
 pub(crate) use quantities::quantities;
-use salib::second_order_of_salib;
-pub use second_order::SecondOrder;
+pub use second_order::second_order;
+use serde::{Deserialize, Serialize};
 pub(crate) use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
 pub(crate) use swap_moments::{BaMoments, SwapMoments};
 use thiserror::Error;
 pub use workspace::Workspace;
 
 /// Why an output has no indices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Undefined {
+    /// A `share` of the runs failed, more than the share that the study allows, both from 0 to 1.
+    #[error(
+        "{:.3} % of the runs failed, more than the {} % that are allowed: the other runs would not represent the factor space",
+        100.0 * share,
+        100.0 * allowed
+    )]
+    TooManyFailed { share: f64, allowed: f64 },
     /// Every base point lost at least one of its runs.
     #[error("fewer than two base points have all of their runs: no index can be estimated")]
     NoRuns,
@@ -59,12 +68,6 @@ pub enum Undefined {
     /// The variance is too large or too small for a double.
     #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
     Unrepresentable,
-    /// An estimator needs rows that the design does not have.
-    #[error("the estimator {estimator} needs rows BA that the design does not have")]
-    NoRowsBa {
-        /// Name of the estimator.
-        estimator: &'static str,
-    },
 }
 
 /// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.

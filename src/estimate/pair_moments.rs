@@ -1,6 +1,6 @@
 //! The means used to compute second-order indices.
 
-use super::workspace::{Workspace, difference};
+use super::workspace::{Differences, Workspace, difference};
 use apportion_base::sum::centred_product;
 
 /// Means of E_j D_k over the ordered pairs j != k of the paired swaps, with D = y_AB - y_A and E = y_BA - y_B.
@@ -29,14 +29,14 @@ impl PairMoments {
         work: &mut Workspace,
     ) -> Self {
         work.paired.resize_with(swaps.len(), Default::default);
-        for ([d, e], &swap) in work.paired.iter_mut().zip(swaps) {
+        for (Differences { d, e }, &swap) in work.paired.iter_mut().zip(swaps) {
             difference(ab[swap], a, d);
             difference(ba[swap], b, e);
         }
         let mut means = Vec::with_capacity(swaps.len() * swaps.len().saturating_sub(1));
-        for (j, [_, e]) in work.paired.iter().enumerate() {
+        for (j, of_j) in work.paired.iter().enumerate() {
             let others = work.paired.iter().enumerate().filter(|(k, _)| *k != j);
-            means.extend(others.map(|(_, [d, _])| PairMean::new(e, d)));
+            means.extend(others.map(|(_, of_k)| PairMean::new(&of_j.e, &of_k.d)));
         }
         Self { swaps: swaps.to_vec(), means }
     }

@@ -14,8 +14,8 @@ const OUTPUTS_OF_SHORT_PARTS: usize = 256;
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
 ///
-/// Neighbouring parts are merged in pairs whenever there are too many, in the same tree in which the whole is finally
-/// merged: the bits of the whole do not depend on when that happened.
+/// Neighbouring parts are merged in pairs whenever there are too many, in the same tree in which all are finally
+/// merged: the bits of the sum do not depend on when that happened.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MomentParts {
     /// Base points in a part that is complete.
@@ -68,7 +68,7 @@ impl MomentParts {
     }
 
     /// Returns the moments of all base points together.
-    pub fn whole(&self) -> Moments {
+    pub fn sum(&self) -> Moments {
         merged(&self.parts)
     }
 
@@ -104,9 +104,9 @@ pub fn merged(parts: &[Moments]) -> Moments {
         [one] => one.clone(),
         many => {
             let (left, right) = many.split_at(many.len().next_power_of_two() / 2);
-            let mut whole = merged(left);
-            whole.merge(&merged(right));
-            whole
+            let mut sum = merged(left);
+            sum.merge(&merged(right));
+            sum
         }
     }
 }

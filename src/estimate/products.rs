@@ -5,7 +5,7 @@
 
 use super::pair_moments::PairMoments;
 use super::swap_moments::BaMoments;
-use super::workspace::difference;
+use super::workspace::{Differences, difference};
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
 /// The letters that form products: 1 at a base point that counts, and the outputs and differences of [`SwapMoments`]
@@ -31,7 +31,7 @@ const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
 #[derive(Debug, Clone)]
 pub struct Products {
     /// The moments of all points; the products are centred on their means.
-    whole: Moments,
+    all: Moments,
     /// Whether each swap counts its own points.
     own: Vec<bool>,
     /// The products that each swap adds to those of the base.
@@ -46,30 +46,30 @@ pub struct Products {
 pub struct ProductWork {
     base: [Vec<f64>; LETTERS],
     swap: [Vec<f64>; LETTERS],
-    /// D and E of every swap, for pairs, not centred.
-    differences: Vec<[Vec<f64>; 2]>,
+    /// Those of every swap, for pairs, not centred.
+    differences: Vec<Differences>,
 }
 
 impl Products {
-    /// Creates the products that lead to `whole`, the moments of all base points.
-    pub fn new(whole: Moments) -> Self {
+    /// Creates the products that lead to `all`, the moments of all base points.
+    pub fn new(all: Moments) -> Self {
         let mut of_swap = WITH_AB.to_vec();
-        if whole.has_ba() {
+        if all.has_ba() {
             of_swap.extend(WITH_BA);
         }
-        let count = whole.count();
-        let own: Vec<bool> = (0..whole.swaps()).map(|swap| whole.swap(swap).base.n != count).collect();
-        let paired = whole.pairs().map_or(&[][..], PairMoments::swaps);
+        let count = all.count();
+        let own: Vec<bool> = (0..all.swaps()).map(|swap| all.swap(swap).base.n != count).collect();
+        let paired = all.pairs().map_or(&[][..], PairMoments::swaps);
         let ordered = paired.iter().flat_map(|&j| paired.iter().filter(move |k| **k != j).map(move |&k| (j, k)));
         let mut pairs = Vec::new();
         for (j, k) in ordered {
-            let points = whole.pairs().and_then(|pairs| pairs.mean(j, k)).map_or(0, |(_, points)| points);
+            let points = all.pairs().and_then(|pairs| pairs.mean(j, k)).map_or(0, |(_, points)| points);
             pairs.push((j, k, points != count));
         }
         let columns = BASE.len()
             + own.iter().map(|own| of_swap.len() + if *own { BASE.len() } else { 0 }).sum::<usize>()
             + pairs.iter().map(|(_, _, own)| 1 + usize::from(*own)).sum::<usize>();
-        Self { whole, own, of_swap, pairs, columns }
+        Self { all, own, of_swap, pairs, columns }
     }
 
     /// Returns the number of products at each base point.
@@ -102,13 +102,13 @@ impl Products {
                 column.iter_mut().zip(&letters[x]).zip(&letters[y]).for_each(|((out, x), y)| *out = x * y);
             }
         };
-        let base = self.whole.base();
+        let base = self.all.base();
         set_mask(&mut letters[ONE], points, &[block.a, block.b]);
         set_centred(letters, A, block.a, None, base.mean_a);
         set_centred(letters, B, block.b, None, base.mean_b);
         put(letters, &BASE);
         for (swap, own) in self.own.iter().enumerate() {
-            let moments = self.whole.swap(swap);
+            let moments = self.all.swap(swap);
             let rows = [block.ab, block.ba].map(|rows| rows.get(swap).copied());
             let letters = if *own {
                 let asked: Vec<&[f64]> = [block.a, block.b].into_iter().chain(rows.into_iter().flatten()).collect();
@@ -137,20 +137,20 @@ impl Products {
         &self,
         block: &BlockOutputs<'_>,
         mask: &[f64],
-        differences: &mut Vec<[Vec<f64>; 2]>,
+        differences: &mut Vec<Differences>,
         columns: &mut impl Iterator<Item = &'c mut [f64]>,
     ) {
         if self.pairs.is_empty() {
             return;
         }
         differences.resize_with(self.own.len(), Default::default);
-        for (swap, [d, e]) in differences.iter_mut().enumerate() {
+        for (swap, Differences { d, e }) in differences.iter_mut().enumerate() {
             for (into, row, origin) in [(d, block.ab[swap], block.a), (e, block.ba[swap], block.b)] {
                 difference(row, origin, into);
             }
         }
         for (j, k, own) in &self.pairs {
-            let product = |i: usize| differences[*j][1][i] * differences[*k][0][i];
+            let product = |i: usize| differences[*j].e[i] * differences[*k].d[i];
             let counts = |i: usize| if *own { product(i).is_finite() } else { mask[i] > 0.0 };
             if *own && let Some(column) = columns.next() {
                 column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(counts(i))));
@@ -165,19 +165,19 @@ impl Products {
     pub fn moments(&self, sums: &[f64]) -> Moments {
         let mut sums = sums.iter().copied();
         let mut next = move || sums.next().unwrap_or(f64::NAN);
-        let base = base_moments(&mut next, self.whole.base());
+        let base = base_moments(&mut next, self.all.base());
         let swaps = self.own.iter().enumerate().map(|(swap, own)| {
-            let whole = self.whole.swap(swap);
-            let (moments, gaps) = if *own { base_moments(&mut next, &whole.base) } else { base };
-            swap_moments(&mut next, (moments, gaps), whole)
+            let all = self.all.swap(swap);
+            let (moments, gaps) = if *own { base_moments(&mut next, &all.base) } else { base };
+            swap_moments(&mut next, (moments, gaps), all)
         });
         let swaps = swaps.collect();
-        let pairs = self.whole.pairs().map(|whole| {
+        let pairs = self.all.pairs().map(|all| {
             let means = self.pairs.iter().map(|(_, _, own)| {
                 let n = if *own { next().round() } else { base.0.n as f64 };
                 (if n > 0.0 { next() / n } else { next() * 0.0 }, n as u64)
             });
-            PairMoments::from_means(whole.swaps(), means)
+            PairMoments::from_means(all.swaps(), means)
         });
         Moments::from_sums(base.0, swaps, pairs)
     }
@@ -219,7 +219,7 @@ fn recentred_square(square: f64, x: f64, n: f64) -> f64 {
     if left <= ROUNDING * square { 0.0 } else { left }
 }
 
-fn base_moments(next: &mut impl FnMut() -> f64, whole: &BaseMoments) -> (BaseMoments, Gaps) {
+fn base_moments(next: &mut impl FnMut() -> f64, all: &BaseMoments) -> (BaseMoments, Gaps) {
     let [n, a, b, aa, bb, ab] = std::array::from_fn(|_| next());
     let points = n.round();
     if points <= 0.0 {
@@ -227,8 +227,8 @@ fn base_moments(next: &mut impl FnMut() -> f64, whole: &BaseMoments) -> (BaseMom
     }
     let base = BaseMoments {
         n: points as u64,
-        mean_a: whole.mean_a + a / points,
-        mean_b: whole.mean_b + b / points,
+        mean_a: all.mean_a + a / points,
+        mean_b: all.mean_b + b / points,
         aa: recentred_square(aa, a, points),
         bb: recentred_square(bb, b, points),
         ab: recentred(ab, a, b, points),
@@ -236,14 +236,10 @@ fn base_moments(next: &mut impl FnMut() -> f64, whole: &BaseMoments) -> (BaseMom
     (base, (a, b))
 }
 
-fn swap_moments(
-    next: &mut impl FnMut() -> f64,
-    (base, (a, b)): (BaseMoments, Gaps),
-    whole: &SwapMoments,
-) -> SwapMoments {
+fn swap_moments(next: &mut impl FnMut() -> f64, (base, (a, b)): (BaseMoments, Gaps), all: &SwapMoments) -> SwapMoments {
     let n = if base.n == 0 { 1.0 } else { base.n as f64 };
     let [d, dd, ad, bd] = std::array::from_fn(|_| next());
-    let ba = whole.ba.map(|ba| {
+    let ba = all.ba.map(|ba| {
         let [e, ee, ae, be, de] = std::array::from_fn(|_| next());
         BaMoments {
             mean_e: ba.mean_e + e / n,
@@ -255,7 +251,7 @@ fn swap_moments(
     });
     SwapMoments {
         base,
-        mean_d: whole.mean_d + d / n,
+        mean_d: all.mean_d + d / n,
         dd: recentred_square(dd, d, n),
         ad: recentred(ad, a, d, n),
         bd: recentred(bd, b, d, n),

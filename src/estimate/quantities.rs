@@ -1,13 +1,13 @@
 //! All quantities of an output from its sums.
 
-use super::{Estimator, Indices, Moments, SecondOrder, second_order_of_salib, shapley_effects, shares};
+use super::{Estimator, Indices, Moments, second_order, shapley_effects, shares};
 use crate::effect::{
     Effect, EffectQuantities, IndexPair, Layout, NoisePairing, OfMean, OfPair, OtherQuantities, Quantities,
 };
 
 /// Computes all quantities of an output with `moments`, NaN if one does not exist. `None` if there are no indices.
 pub(crate) fn quantities(layout: &Layout, moments: &Moments) -> Option<Quantities<f64>> {
-    let indices = if layout.salib { Indices::of_salib(moments) } else { Indices::from_moments(moments) }.ok()?;
+    let indices = Indices::from_moments(moments).ok()?;
     let sums = SwapSums { layout, moments, indices: &indices };
     let mut effects: Vec<EffectQuantities<f64>> =
         layout.effects.iter().enumerate().map(|(at, effect)| sums.of_swap(*effect, layout.swap(at))).collect();
@@ -75,10 +75,7 @@ impl SwapSums<'_> {
     }
 
     fn of_pair(&self, (j, k): (usize, usize)) -> f64 {
-        match self.layout.salib {
-            true => second_order_of_salib(self.moments, j, k),
-            false => SecondOrder::Difference.estimate(self.moments, j, k),
-        }
+        second_order(self.moments, j, k)
     }
 
     /// Returns the indices of the mean: it has the variance V(E[y|x]) = V (1 - ST_noise), and all effects of the factors

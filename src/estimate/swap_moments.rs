@@ -1,7 +1,7 @@
 //! The sums used to compute the indices of one swap.
 
 use super::base_moments::{BaseMoments, Shift};
-use super::workspace::{Workspace, difference};
+use super::workspace::{Differences, Workspace, difference};
 use apportion_base::sum::{centred_product, centred_products, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
@@ -54,8 +54,8 @@ impl SwapMoments {
     /// that is not finite is a failure.
     pub(super) fn from_columns(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
         // A sum over a column is finite only if the column is, so that no separate pass for failures is needed.
-        let whole = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
-        whole.unwrap_or_else(|| {
+        let complete = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
+        complete.unwrap_or_else(|| {
             let mut kept = std::mem::take(&mut work.kept);
             let columns = columns.without_failures(&mut kept);
             let moments = Self::of_complete(BaseMoments::from_columns(columns.a, columns.b), columns, work);
@@ -70,7 +70,7 @@ impl SwapMoments {
 
     fn of_complete(base: BaseMoments, columns: Columns<'_>, work: &mut Workspace) -> Self {
         let Columns { a, b, ab, ba } = columns;
-        let [buffer_d, buffer_e] = &mut work.differences;
+        let Differences { d: buffer_d, e: buffer_e } = &mut work.differences;
         let (a, b) = ((a, base.mean_a), (b, base.mean_b));
         difference(ab, a.0, buffer_d);
         let d = (&buffer_d[..], mean(buffer_d));

@@ -1,14 +1,21 @@
 //! Memory that is reused from block to block.
 
+/// The changes in the rows of a swap: D = y_AB - y_A and E = y_BA - y_B.
+#[derive(Debug, Default)]
+pub(super) struct Differences {
+    pub d: Vec<f64>,
+    pub e: Vec<f64>,
+}
+
 /// Buffers for [`super::Moments::of_block`]; used ones are as good as new ones.
 #[derive(Debug, Default)]
 pub struct Workspace {
     /// Differences of the current swap.
-    pub(super) differences: [Vec<f64>; 2],
+    pub(super) differences: Differences,
     /// Columns of A, B and the rows of a swap without the base points that failed.
     pub(super) kept: [Vec<f64>; 4],
-    /// D and E of all paired swaps.
-    pub(super) paired: Vec<[Vec<f64>; 2]>,
+    /// Those of all paired swaps.
+    pub(super) paired: Vec<Differences>,
 }
 
 /// Writes the differences `y - origin` to `buffer`.

@@ -45,7 +45,7 @@ where
     ///     y[1] = stiffness * way * way / 2.0;
     ///     Ok(())
     /// });
-    /// # Ok::<(), apportion::UnitError>(())
+    /// # Ok::<(), apportion_base::quantity::UnitError>(())
     /// ```
     pub fn new(outputs: Vec<Output>, function: F) -> Self {
         Self { outputs, series: Vec::new(), function }

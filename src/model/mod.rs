@@ -20,9 +20,7 @@ pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use function::{FunctionModel, function_model};
-pub use known::{
-    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, ParameterError, ParameterInfo, ParameterValue,
-};
+pub use known::{Basis, Exact, KnownAnswer, KnownFunction, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 pub use repeated::RepeatedModel;
 pub use series::{OutputSeries, SeriesAxis, SeriesError};
 

@@ -13,6 +13,7 @@ mod schema;
 mod setup;
 mod stopping;
 mod warning;
+mod with_text;
 
 use std::ops::Range;
 
@@ -27,12 +28,15 @@ pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use schema::result_schema;
 use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
-pub use stopping::{StopReason, StoppingRecord};
+pub use stopping::{AccuracyReason, StopReason, StoppingRecord};
 pub use warning::{IndexKind, Irreproducible, Warning};
+#[cfg(feature = "schema")]
+use with_text::WithText;
+use with_text::{with_text, with_texts};
 
 use crate::design::Sampler;
 use crate::effect::IndexPair;
-use crate::estimate::Scaling;
+use crate::estimate::{Scaling, Undefined};
 use crate::space::{CorrelationMeasure, IndicesOf};
 use crate::surrogate::SurrogateChoice;
 use crate::uncertainty::{Estimate, IntervalMethod};
@@ -264,7 +268,9 @@ pub struct AggregateRecord {
     /// The noise of a stochastic model, which is not a factor.
     pub noise: Option<Named<IndexPair<Estimate>>>,
     /// Why there are no indices.
-    pub reason: Option<String>,
+    #[serde(serialize_with = "with_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<WithText<Undefined>>"))]
+    pub reason: Option<Undefined>,
 }
 
 /// A validity flag.
@@ -300,7 +306,9 @@ pub struct SeriesRecord {
     /// Indices over all values, each weighted by its variance, one entry per factor; `null` if a value has none.
     pub indices: Option<Vec<Named<IndexPair<Estimate>>>>,
     /// Why there are no indices.
-    pub reason: Option<String>,
+    #[serde(serialize_with = "with_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<WithText<Undefined>>"))]
+    pub reason: Option<Undefined>,
 }
 
 impl SeriesRecord {
@@ -323,8 +331,10 @@ pub struct AccuracyRecord {
     /// Minimum number of runs for the same half width without surrogates and low-fidelity models, by the intervals of
     /// the plain indices of this run; `null` if they are unknown.
     pub plain_runs: Option<u64>,
-    /// The reasons, in sentences.
-    pub reasons: Vec<String>,
+    /// The reasons.
+    #[serde(serialize_with = "with_texts")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<AccuracyReason>>"))]
+    pub reasons: Vec<AccuracyReason>,
     /// The choice of surrogates with which a study of the same design repeats the run.
     pub surrogate: SurrogateChoice,
     /// Number of low-fidelity models that the study states.

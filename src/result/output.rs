@@ -4,11 +4,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
 
+use super::warning::Warning;
 #[cfg(feature = "schema")]
-use super::warning::WithText;
-use super::warning::{Warning, with_texts};
+use super::with_text::WithText;
+use super::with_text::{with_text, with_texts};
 use super::{EstimatorRecord, Named, NoiseRecord, OutputDistribution, PairRecord, SurrogateRecord};
 use crate::effect::IndexPair;
+use crate::estimate::Undefined;
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
 
@@ -62,15 +64,17 @@ pub struct OutputResult {
     pub surrogate_trial: Option<SurrogateTrial>,
     /// The indices and their intervals at stages of the run, without surrogates.
     pub convergence: Vec<StageRecord>,
-    /// The distribution of its values; `null` if no run succeeded, or if a number exceeds double precision.
-    pub distribution: Option<DistributionRecord>,
+    /// The distribution of its values in the rows A and B; `null` if no run succeeded, or if a number exceeds double precision.
+    pub distribution: Option<OutputDistribution>,
     /// Its relation to its most influential factors; `null` without indices, or if a number exceeds double precision.
     pub scatter: Option<ScatterRecord>,
     /// Why there are no indices, if there are none.
-    pub reason: Option<String>,
+    #[serde(serialize_with = "with_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<WithText<Undefined>>"))]
+    pub reason: Option<Undefined>,
     /// Why its numbers may be wrong, or less accurate than they look.
     #[serde(serialize_with = "with_texts")]
-    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<'static>>"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<Warning>>"))]
     pub warnings: Vec<Warning>,
 }
 
@@ -103,10 +107,7 @@ impl OutputResult {
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {
-        indices.ok_or_else(|| LookupError::NoIndices {
-            output: self.name.clone(),
-            reason: self.reason.clone().unwrap_or_else(|| "they were not estimated".to_owned()),
-        })
+        indices.ok_or_else(|| LookupError::NoIndices { output: self.name.clone(), reason: self.reason })
     }
 }
 
@@ -122,17 +123,6 @@ pub(super) fn find<'a, T>(
         name: name.to_owned(),
         existing: all.iter().map(|one| name_of(one).clone()).collect(),
     })
-}
-
-/// The distribution of the values of an output, from the rows A and B.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct DistributionRecord {
-    /// Number of values for mean, standard deviation, skewness, kurtosis and range: those of all rows A and B.
-    pub values: u64,
-    /// The rest; quantiles, histogram and density use the `count` values that were kept, the first of every replicate.
-    #[serde(flatten)]
-    pub sample: OutputDistribution,
 }
 
 /// The indices at a stage of the run, with the given number of base points.
@@ -202,9 +192,10 @@ pub struct FailureCount {
     pub reason: String,
     /// Number of runs.
     pub runs: u64,
-    /// Row number of the first of them in the design.
-    pub first_row: u64,
-    /// The factor values of that row, in the units of the factors; empty for SALib's points, which are unknown.
+    /// Row number of the first of them in the design; none in a screening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_row: Option<u64>,
+    /// The factor values of that row, in the units of the factors.
     pub first_inputs: Map<String, Value>,
 }
 
@@ -227,6 +218,6 @@ pub enum LookupError {
     #[error("there is no {what} `{name}`; there are: {}", existing.join(", "))]
     UnknownName { what: &'static str, name: String, existing: Vec<String> },
     /// The output has no indices.
-    #[error("output `{output}` has no indices: {reason}")]
-    NoIndices { output: String, reason: String },
+    #[error("output `{output}` has no indices: {}", reason.map_or("they were not estimated".to_owned(), |reason| reason.to_string()))]
+    NoIndices { output: String, reason: Option<Undefined> },
 }

@@ -47,9 +47,34 @@ pub enum StopReason {
     #[error("the outputs of twice the runs would not fit into memory, and these intervals need all of them")]
     Memory,
     /// Twice the runs would be too many.
-    #[error("twice the runs would be {runs}, more than max_runs = {most}")]
+    #[error("twice the runs would be {runs}, more than the maximum of {most}")]
     MaxRuns { runs: u64, most: u64 },
     /// Twice the runs would take too long.
     #[error("twice the runs would take about {seconds:.1} s, more than the budget of {budget} s")]
     Budget { seconds: f64, budget: f64 },
+}
+
+/// What a run with a target accuracy chose, and why.
+#[derive(Debug, Clone, Copy, PartialEq, Error, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "code", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum AccuracyReason {
+    /// Neither surrogates nor low-fidelity models serve the study.
+    #[error(
+        "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points"
+    )]
+    NoSurrogates,
+    /// The trial met the target.
+    #[error("a trial of {runs} runs was enough")]
+    TrialEnough { runs: u64 },
+    /// Polynomials explained this share of the variance in a trial, enough for plain rows.
+    #[error("in a trial of {runs} runs polynomials explained {:.1} % of the variance: plain rows", 100.0 * explained)]
+    PlainRows { runs: u64, explained: f64 },
+    /// Polynomials explained this share of the variance in a trial, too little for plain rows.
+    #[error("in a trial of {runs} runs polynomials explained {:.0} % of the variance: no plain rows", 100.0 * explained)]
+    NoPlainRows { runs: u64, explained: f64 },
+    /// Corrected indices of that many runs would not reach the accuracy.
+    #[error("corrected indices of {runs} runs would not reach the accuracy: no surrogates")]
+    PlainIndices { runs: u64 },
 }

@@ -1,6 +1,6 @@
 //! Warnings about results: their kinds, numbers and words.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use thiserror::Error;
 
 use super::RareLevel;
@@ -34,7 +34,7 @@ pub enum Warning {
     /// The points of a replicate are not a power of two; `fewer` or `more` base samples would be.
     #[error(
         "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
-         base_samples = {fewer} or {more} would be better"
+         {fewer} or {more} base samples would be better"
     )]
     Unbalanced { points: u64, fewer: u64, more: u64 },
     /// One replicate, and intervals from the spread of replicates.
@@ -222,7 +222,7 @@ impl Irreproducible {
         match (self, has_noise) {
             (Self::Random, false) => {
                 "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
-                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
+                 all; give the model a seed with every row, so that the noise gets its own indices"
             }
             (Self::Random, true) => {
                 "the model draws random numbers without its seed, and the indices of the factors include their noise"
@@ -230,25 +230,10 @@ impl Irreproducible {
             (Self::Remembers, _) => {
                 "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
                  one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
-                 values only, with random numbers from a seed of its row (noise = \"seed\")"
+                 values only, with random numbers from a seed of its row"
             }
         }
     }
-}
-
-/// A warning with its sentence, as in JSON.
-#[derive(Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "WarningRecord"))]
-pub(super) struct WithText<'a> {
-    #[serde(flatten)]
-    warning: &'a Warning,
-    /// The warning in a sentence.
-    text: String,
-}
-
-/// Writes warnings with their sentences, which are ignored when they are read.
-pub(super) fn with_texts<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(warnings.iter().map(|warning| WithText { warning, text: warning.to_string() }))
 }
 
 /// Reads a number that is `null` if it is infinite.

@@ -10,7 +10,7 @@ use super::Runner;
 use super::low_fidelity::sibling_path;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows};
 use crate::model::RunContext;
-use crate::result::{AccuracyRecord, StopReason, StudyResult};
+use crate::result::{AccuracyReason, AccuracyRecord, StopReason, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice};
 use crate::uncertainty::{RULE_OF_THREE, largest_half_width};
@@ -87,7 +87,7 @@ struct AccuracySearch<'a> {
     unsplit: Store,
     /// Model runs of earlier steps that the current one does not use.
     earlier_runs: u64,
-    reasons: Vec<String>,
+    reasons: Vec<AccuracyReason>,
 }
 
 impl AccuracySearch<'_> {
@@ -95,8 +95,7 @@ impl AccuracySearch<'_> {
         let study = self.runner.study;
         let DesignSettings { sampler, replicates, .. } = *study.design.settings();
         if !study.analysis.takes_surrogates(sampler, replicates, &study.space) {
-            let needs = "independent factors, and three or more replicates of Sobol' or random points";
-            self.reasons.push(format!("surrogates and cheaper models need {needs}"));
+            self.reasons.push(AccuracyReason::NoSurrogates);
             return Ok(Step::Plain);
         }
         if !self.low_fidelity.is_empty() {
@@ -111,27 +110,23 @@ impl AccuracySearch<'_> {
         let runs = outcome.result.provenance.model_runs;
         let next = match (step, &outcome.reason) {
             (Step::Trial, Some(StopReason::TargetMet { .. })) => {
-                self.reasons.push(format!("a trial of {runs} runs was enough"));
+                self.reasons.push(AccuracyReason::TrialEnough { runs });
                 return None;
             }
             (Step::Trial, _) => {
-                let explained = smallest_explained(&outcome.result);
-                let percent = 100.0 * explained.clamp(0.0, 1.0);
-                let trial = format!("in a trial of {runs} runs polynomials explained");
+                let explained = smallest_explained(&outcome.result).clamp(0.0, 1.0);
                 if explained >= SMOOTH {
-                    self.reasons.push(format!("{trial} {percent:.1} % of the variance: plain rows"));
+                    self.reasons.push(AccuracyReason::PlainRows { runs, explained });
                     // Its runs are among those of the next step.
                     return Some(Step::Split);
                 }
-                self.reasons.push(format!("{trial} {percent:.0} % of the variance: no plain rows"));
+                self.reasons.push(AccuracyReason::NoPlainRows { runs, explained });
                 Step::Fitted
             }
             (Step::Split | Step::Fitted, Some(StopReason::MaxRuns { .. }))
                 if self.runner.study.target.max_runs != self.max_runs() =>
             {
-                let runs = MAX_CORRECTED_RUNS;
-                self.reasons
-                    .push(format!("corrected indices of {runs} runs would not reach the accuracy: no surrogates"));
+                self.reasons.push(AccuracyReason::PlainIndices { runs: MAX_CORRECTED_RUNS });
                 Step::Plain
             }
             _ => return None,

@@ -6,23 +6,18 @@ mod journal;
 mod low_fidelity;
 mod merge;
 mod model_files;
+mod once;
 mod worker;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use growth::Growth;
-use journal::RunJournal;
-use low_fidelity::{LowFidelityRun, LowFidelityStudy};
 pub use worker::{Requests, WorkerStudy};
 
-use crate::analysis::{FinishedRun, LowFidelityTotals, result};
-use crate::model::{Messages, RunContext};
-use crate::result::{StopReason, StudyResult};
-use crate::run::{
-    GrowingRun, Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows, threads_in_force,
-};
+use crate::model::RunContext;
+use crate::result::StudyResult;
+use crate::run::{Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store};
 use crate::study::Study;
 
 impl Study {
@@ -242,98 +237,12 @@ impl<'a> Runner<'a> {
         RunContext::new(self.stop, move |line| on_message(line))
     }
 
-    fn open(&self, shard: Option<Shard>, messages: &Messages) -> Result<RunJournal, RunError> {
-        if self.resume.is_required() {
-            self.journal_for("a run that is resumed")?;
-        }
-        match &self.journal {
-            None => Ok(RunJournal::none(self.study)),
-            Some(path) => journal::open(self, path, shard, messages),
-        }
-    }
-
     fn journal_for(&self, what: &'static str) -> Result<&Path, RunError> {
         self.journal.as_deref().ok_or(RunError::NoJournal { what })
-    }
-
-    fn set_up<'r>(
-        &self,
-        job: Job<'r>,
-        context: &'r RunContext<'r>,
-        journal: &'r RunJournal,
-    ) -> Result<GrowingRun<'r>, RunError>
-    where
-        'a: 'r,
-    {
-        // Some systems refuse more, and others take minutes to start them.
-        const MAX_THREADS: usize = 1024;
-        if self.threads > MAX_THREADS {
-            let source = format!("at most {MAX_THREADS}").into();
-            return Err(RunError::Threads { threads: self.threads, source });
-        }
-        let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
-        run.failures = self.study.analysis.failures;
-        run.keeps_outputs = self.study.needs_outputs();
-        run.journal = Some(&journal.open);
-        Ok(run)
     }
 
     /// Returns the remote workers for the model with that index: see [`Remote::subject`].
     fn remote_for(&self, subject: usize) -> Option<Remote<'a>> {
         self.remote.map(|workers| Remote { workers, subject })
-    }
-
-    /// Runs the study and estimates its indices; also returns why a growing run stopped.
-    fn analyse(
-        &self,
-        context: &RunContext<'_>,
-        journal: RunJournal,
-    ) -> Result<(StudyResult, Option<StopReason>), RunError> {
-        let (study, model) = (self.study, self.study.model());
-        let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
-        let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
-        if let Some(store) = self.store {
-            for block in journal.store.blocks() {
-                store.insert(&block);
-            }
-        }
-        let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
-        let is_stored = journal.open.get().is_some() || model.is_slow() || self.remote.is_some();
-        let store = self.store.or(is_stored.then_some(&journal.store));
-        let low_studies = study.low_fidelities.iter().map(|low| LowFidelityStudy::new(self, low, context.messages()));
-        let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
-        let on_progress = |progress: Progress| {
-            evaluated.fetch_max(progress.done.saturating_sub(progress.recalled), Ordering::Relaxed);
-            journal.watch(progress, outputs, context.messages());
-            (self.on_progress)(progress);
-        };
-        let mut run = self.set_up(job, context, &journal)?;
-        run.store = store;
-        let low_fidelity = LowFidelityRun::all(self, &low_studies, context)?;
-        let mut growth = Growth { study, run, low_fidelity, on_progress: &on_progress };
-        let grown = growth.run_all();
-        // An error of the run takes precedence over one of its journal.
-        let (stopped, surrogates) = grown.and_then(|grown| journal.sync().map(|()| grown))?.unzip();
-        let Growth { run, low_fidelity, .. } = growth;
-        let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
-        let low_fidelity: Vec<LowFidelityTotals<'_>> = low_fidelity.iter().map(LowFidelityRun::totals).collect();
-        let finished = FinishedRun {
-            study,
-            model: model.as_ref(),
-            design: &design,
-            replicates: run.totals(),
-            low_fidelity: &low_fidelity,
-            surrogates: surrogates.as_deref(),
-            threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
-            wall_seconds: run.elapsed().as_secs_f64(),
-        };
-        let mut result = run.install(|| result(&finished, stopped));
-        let evaluated = evaluated.load(Ordering::Relaxed);
-        if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
-            for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
-                output.warnings.extend(repeats.warning(*differing, study.space.noise().is_some()));
-            }
-        }
-        Ok((result, stopped))
     }
 }

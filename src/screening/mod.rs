@@ -25,11 +25,11 @@ pub use measures::Reading;
 use points::Trajectories;
 use run::Outcome;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, RunContext};
+use crate::result::FailureCount;
 use crate::run::Progress;
 use crate::space::{Distribution, Factor, Space};
 use crate::uncertainty::{Estimate, Interval, RULE_OF_THREE};
@@ -79,7 +79,7 @@ pub struct ScreenedOutput {
     /// One entry per factor, in the order of the space.
     pub factors: Vec<ScreenedFactor>,
     /// Why runs failed.
-    pub failures: Vec<ScreeningFailure>,
+    pub failures: Vec<FailureCount>,
     /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
@@ -111,17 +111,6 @@ pub struct ScreenedFactor {
     pub dropped: u64,
     /// Number of steps that did not change its value, as for a constant; their effect is 0.
     pub idle_steps: u64,
-}
-
-/// Runs of a screening that failed for one reason.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ScreeningFailure {
-    /// The reason.
-    pub reason: String,
-    /// The number of runs.
-    pub runs: u64,
-    /// The first one's factor values, in the units of the factors.
-    pub first_inputs: Map<String, Value>,
 }
 
 /// Screens the factors of `job` on `threads` threads (0: one per core). `on_progress` is called from time to time, from
@@ -207,12 +196,12 @@ impl ScreenedFactor {
 }
 
 /// Returns why runs failed in output number `number`.
-fn failures(number: usize, outcome: &Outcome, space: &Space) -> Vec<ScreeningFailure> {
+fn failures(number: usize, outcome: &Outcome, space: &Space) -> Vec<FailureCount> {
     let mut failures = Vec::new();
     for ((_, reason), (runs, first)) in outcome.failures.iter().filter(|((output, _), _)| *output == number) {
         let first = first.iter().zip(space.factors()).map(|(x, factor)| factor.unit().from_si(*x));
         let first_inputs = named_inputs(space, &first.collect::<Vec<f64>>());
-        failures.push(ScreeningFailure { reason: reason.to_string(), runs: *runs, first_inputs });
+        failures.push(FailureCount { reason: reason.to_string(), runs: *runs, first_row: None, first_inputs });
     }
     failures
 }

@@ -17,8 +17,10 @@ pub(super) struct Move {
     pub u: [f64; 2],
     /// The step as a signed part of its range.
     pub step: f64,
-    /// The rows of the trajectory before and after the step.
-    pub rows: [usize; 2],
+    /// The row of the trajectory before the step.
+    pub before: usize,
+    /// The row after it.
+    pub after: usize,
 }
 
 /// Generates the trajectories.
@@ -89,7 +91,7 @@ impl Trajectories {
 
     /// Sets the coordinates of factor `j` in all rows of a trajectory, from its two values.
     pub fn fill(&self, factor: &Move, values: [f64; 2], column: &mut [f64]) {
-        let [_, after] = factor.rows;
+        let after = factor.after;
         match self.shape {
             Shape::Star { .. } => {
                 column.fill(values[0]);
@@ -122,7 +124,7 @@ impl Trajectories {
                 // Only walks have grids.
                 Grid::Levels(levels) => between(levels, 0, levels.len() - 1),
             };
-            moves.push(Move { u, step, rows: [0, j + 1] });
+            moves.push(Move { u, step, before: 0, after: j + 1 });
         }
         moves
     }
@@ -155,7 +157,7 @@ impl Trajectories {
                     between(levels, from, if up { from + stride } else { from - stride })
                 }
             };
-            moves.push(Move { u, step, rows: [row, row + 1] });
+            moves.push(Move { u, step, before: row, after: row + 1 });
         }
         moves
     }

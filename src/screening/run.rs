@@ -97,7 +97,7 @@ fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
 }
 
 /// Returns the difference of the output over the step; NaN if a run failed or the quotient overflows.
-fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f64 {
+fn effect(Move { step, before, after, .. }: &Move, values: &[f64]) -> f64 {
     let effect = (values[*after] - values[*before]) / step;
     if effect.is_finite() { effect } else { f64::NAN }
 }

@@ -225,7 +225,7 @@ fn a_walk_visits_all_levels_and_orders() {
     let (mut orders, mut starts) = (BTreeSet::new(), [0; 4]);
     for number in 0..settings.trajectories {
         let moves = points.moves(number);
-        orders.insert(moves.iter().map(|m| m.rows[0]).collect::<Vec<_>>());
+        orders.insert(moves.iter().map(|m| m.before).collect::<Vec<_>>());
         starts[(moves[0].u[0] * 3.0).round() as usize] += 1;
         let step = if number % 2 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
         assert!(moves.iter().all(|m| (m.step.abs() - step).abs() < 1e-15));
@@ -310,14 +310,14 @@ fn failed_runs_drop_their_effects_and_are_counted() {
             }
             failed += rows[1].iter().filter(|&&u| u > 0.7).count() as u64;
             for (count, m) in dropped.iter_mut().zip(&moves) {
-                *count += u64::from(m.rows.iter().any(|&row| rows[1][row] > 0.7));
+                *count += u64::from([m.before, m.after].iter().any(|&row| rows[1][row] > 0.7));
             }
         }
         assert!(failed > 0);
         assert_eq!(output.factors.iter().map(|factor| factor.dropped).collect::<Vec<_>>(), dropped);
         assert!(output.factors.iter().all(|factor| factor.effects + factor.dropped == 64));
         assert_eq!((screening.failed, output.failures.len(), output.failures[0].runs), (failed, 1, failed));
-        assert!(output.failures[0].first_inputs.values().nth(1).and_then(Value::as_f64).unwrap() > 0.7);
+        assert!(output.failures[0].first_inputs.values().nth(1).and_then(serde_json::Value::as_f64).unwrap() > 0.7);
         for (factor, slope) in output.factors.iter().zip([1.0, 2.0, 0.0]) {
             assert!((factor.mu.unwrap().estimate - slope).abs() < 1e-13);
         }

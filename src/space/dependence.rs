@@ -192,8 +192,8 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         let nearest: Vec<Vec<f64>> =
             tied.iter().map(|&i| tied.iter().map(|&j| nearest[(i, j)]).collect()).collect();
         DependenceError(format!(
-            "the correlations are not positive definite, so no factors can have all of them. The nearest possible ones, of normal \
-             scores (measure = \"normal\"): factors = {names:?}, correlation = {nearest:?}"
+            "the correlations are not positive definite, so no factors can have all of them. The nearest possible ones, between \
+             the normal scores of {names:?}, are {nearest:?}"
         ))
     })
 }

@@ -215,17 +215,17 @@ impl StudyBuilder {
         let used = design.settings().base_samples;
         if length.base_samples.is_some_and(|requested| requested != used) {
             notes.push(format!(
-                "base_samples = {base_samples} is not a multiple of {replicates} replicates: {used} are used"
+                "{base_samples} base samples are not a multiple of {replicates} replicates: {used} are used"
             ));
         }
         if analysis.surrogate == SurrogateChoice::On && replicates < MIN_NETS as u64 {
-            notes.push(format!("`surrogate` has no effect with fewer than {MIN_NETS} replicates"));
+            notes.push(format!("surrogates have no effect with fewer than {MIN_NETS} replicates"));
         }
         if analysis.resamples != DEFAULT_RESAMPLES && analysis.intervals != IntervalMethod::Percentile {
-            notes.push("`resamples` has an effect only with intervals = \"percentile\"".to_owned());
+            notes.push("the number of resamples has an effect only on percentile intervals".to_owned());
         }
         if analysis.aggregate && outputs < 2 {
-            notes.push("`aggregate` has no effect with a single output".to_owned());
+            notes.push("indices over all outputs have no effect with a single output".to_owned());
         }
         Ok(Study {
             name: self.name,

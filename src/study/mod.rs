@@ -103,16 +103,6 @@ impl Study {
         Ok(Self { subject: Arc::new(subject), ..self })
     }
 
-    /// Returns the study with `base_samples` base samples, as a run of fixed size: its first base samples are those of
-    /// this study, except for Latin hypercubes.
-    ///
-    /// # Errors
-    /// [`DesignError`] if that is too many or too few.
-    pub fn with_base_samples(self, base_samples: u64) -> Result<Self, DesignError> {
-        let design = self.design.with_points(base_samples / self.design.settings().replicates)?;
-        Ok(Self { design, target: Target::default(), ..self })
-    }
-
     /// Returns its name, by default that of the file without its ending. Result files are named after it.
     pub fn name(&self) -> &str {
         &self.name
@@ -223,7 +213,6 @@ impl Study {
         Layout {
             effects: self.effects().into_iter().map(|effect| effect.effect).collect(),
             estimators: self.analysis.estimators.clone(),
-            salib: self.analysis.salib,
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.has_shapley(&self.space),

@@ -16,8 +16,6 @@ use crate::uncertainty::IntervalMethod;
 pub struct AnalysisOptions {
     /// Estimators to report in addition to the default ones.
     pub estimators: Vec<Estimator>,
-    /// Whether the formulas of SALib replace the default ones: for outputs at points from SALib, unknown here.
-    pub salib: bool,
     /// Whether second-order indices are estimated.
     pub second_order: bool,
     /// Sets of factors, by number, for which joint indices are estimated.
@@ -57,7 +55,6 @@ impl AnalysisOptions {
     pub fn for_sampler(sampler: Sampler) -> Self {
         Self {
             estimators: Vec::new(),
-            salib: false,
             second_order: false,
             subsets: Vec::new(),
             indices_of: IndicesOf::default(),

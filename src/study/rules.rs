@@ -90,12 +90,9 @@ pub(super) fn checked_options(
     let (factors, intervals) = (space.factors().len(), options.intervals);
     if !intervals.serves(sampler) {
         let serving = IntervalMethod::ALL.into_iter().filter(|method| method.serves(sampler)).map(IntervalMethod::name);
-        let expected = format!(
-            "one of {} for points of the sampler \"{}\"",
-            serving.collect::<Vec<_>>().join(", "),
-            sampler.name()
-        );
-        return wrong("intervals", expected, format!("\"{}\"", intervals.name()));
+        let expected =
+            format!("one of {} for points of the sampler {}", serving.collect::<Vec<_>>().join(", "), sampler.name());
+        return wrong("intervals", expected, intervals.name());
     }
     for (key, value) in [("threshold", options.threshold), ("max_failed", options.max_failed)] {
         if !(0.0..=1.0).contains(&value) {
@@ -107,7 +104,7 @@ pub(super) fn checked_options(
         return wrong("resamples", expected, options.resamples);
     }
     if options.surrogate == SurrogateChoice::On && intervals != IntervalMethod::Nets {
-        return wrong("surrogate", "\"on\" only with intervals = \"nets\"", format!("with \"{}\"", intervals.name()));
+        return wrong("surrogate", "on only with intervals by nets", format!("with those by {}", intervals.name()));
     }
     if !options.measures.is_empty() && outputs > MAX_OUTPUTS_OF_MEASURES {
         let expected = format!("those of at most {MAX_OUTPUTS_OF_MEASURES} outputs");
@@ -117,7 +114,7 @@ pub(super) fn checked_options(
         subset.sort_unstable();
         subset.dedup();
         if subset.is_empty() || subset.iter().any(|factor| *factor >= factors) {
-            return wrong("subsets", "lists of factors, as in [[\"x1\", \"x3\"]]", format!("{subset:?}"));
+            return wrong("subsets", "lists of factors", format!("{subset:?}"));
         }
     }
     let mut seen = BTreeSet::new();
@@ -141,21 +138,21 @@ fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildErr
         } else if groups.iter().any(|group| names.contains(group.name.as_str())) {
             Some("where a group has the name of a factor")
         } else {
-            space.noise().map(|_| "with [noise]")
+            space.noise().map(|_| "with a noise")
         };
         if let Some(obstacle) = obstacle {
-            return wrong("indices_of", format!("\"factors\" {obstacle}"), "\"groups\"");
+            return wrong("indices_of", format!("factors {obstacle}"), "groups");
         }
     }
     if options.shapley == Some(true) && members.len() > MAX_SHAPLEY_FACTORS {
         let expected = format!(
-            "false with more than {MAX_SHAPLEY_FACTORS} factors: put them into at most {MAX_SHAPLEY_FACTORS} groups, with \
-             indices_of = \"groups\""
+            "false with more than {MAX_SHAPLEY_FACTORS} factors: put them into at most {MAX_SHAPLEY_FACTORS} groups, and \
+             estimate the indices of groups"
         );
         return wrong("shapley", expected, format!("true with {} factors and groups", members.len()));
     }
     if options.shapley == Some(true) && space.noise().is_some() {
-        return wrong("shapley", "false with [noise], which cannot have a share", "true");
+        return wrong("shapley", "false with a noise, which cannot have a share", "true");
     }
     Ok(())
 }
@@ -201,7 +198,7 @@ pub(super) fn check_low_fidelities(
             return Err(BuildError::LowFidelity { name: name.clone(), problem });
         }
         if base_samples.is_some() && target.accuracy.is_some() {
-            return wrong("base_samples", "left out with `accuracy`, which chooses it", "given");
+            return wrong("base_samples", "left out with an accuracy, which chooses it", "given");
         }
     }
     Ok(())
@@ -225,13 +222,13 @@ impl Length {
         let mut given = sizes.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
         let (size, second) = (given.next(), given.next());
         if let Some((size, second)) = size.zip(second) {
-            return wrong(second, "the only key for the length of a run", format!("together with `{size}`"));
+            return wrong(second, "the only key for the length of a run", format!("together with {size}"));
         }
         let limits = [("max_runs", max_runs.is_some()), ("max_time", max_time.is_some())];
         if let Some((limit, _)) = limits.into_iter().find(|(_, is_given)| *is_given)
             && let Some(size) = size.filter(|size| *size != "accuracy")
         {
-            return wrong(limit, "used with `accuracy` or alone", format!("with `{size}`"));
+            return wrong(limit, "used with an accuracy or alone", format!("with {size}"));
         }
         if accuracy.is_none()
             && let Some(region) = smallest_region
@@ -247,7 +244,7 @@ impl Length {
             }
         }
         if self.target.grows() && sampler == Sampler::LatinHypercube {
-            return wrong("sampler", "\"sobol\" or \"random\" for a run that grows", "a Latin hypercube");
+            return wrong("sampler", "sobol or random for a run that grows", "a Latin hypercube");
         }
         Ok(())
     }

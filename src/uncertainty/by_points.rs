@@ -24,14 +24,14 @@ pub(crate) struct ByPoints<'a> {
 pub(crate) type Bounds = (StandardError, Option<Interval>);
 
 impl ByPoints<'_> {
-    /// Computes the bounds of `estimates`, the results of `quantities` on `whole`, the moments of all points.
+    /// Computes the bounds of `estimates`, the results of `quantities` on `all`, the moments of all points.
     pub fn bounds(
         self,
-        whole: Moments,
+        all: Moments,
         estimates: &[f64],
         quantities: &(dyn Fn(&Moments) -> Option<Vec<f64>> + Sync),
     ) -> Vec<Bounds> {
-        let products = Products::new(whole);
+        let products = Products::new(all);
         let none = (StandardError { error: f64::NAN, freedom: 0.0 }, None);
         if self.method == IntervalMethod::Delta {
             let Some(errors) = delta_errors(self.points, &products, quantities) else {

@@ -7,7 +7,7 @@ use crate::estimate::{MomentParts, Moments, merged};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influences {
     /// The estimates.
-    pub whole: Vec<f64>,
+    pub estimates: Vec<f64>,
     /// For each quantity: the mean influence of the points of every part, `[replicate][part]`; not finite if the
     /// quantity is undefined without a part.
     pub parts: Vec<PartInfluences>,
@@ -15,28 +15,29 @@ pub struct Influences {
 
 impl Influences {
     /// Computes influences on `quantities`, a function from the moments of an output to a list of numbers of fixed
-    /// length, or `None` if undefined. Returns `None` if they are undefined on the whole.
+    /// length, or `None` if undefined. Returns `None` if they are undefined on all parts.
     pub fn from_moments(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
         let replicates: Vec<&MomentParts> = replicates.iter().collect();
-        let LeftOut { whole, without, points, points_of_parts } = LeftOut::new(&replicates, quantities);
-        Some(Self::new(&replicates, whole?, &without, points, &points_of_parts))
+        let LeftOut { of_all, without, points, points_of_parts } = LeftOut::new(&replicates, quantities);
+        Some(Self::new(&replicates, of_all?, &without, points, &points_of_parts))
     }
 
-    /// Computes influences from the quantities of the whole and those `without` each part of the replicates.
+    /// Computes influences from the `estimates` of all parts and those `without` each part of the replicates.
     ///
     /// The influence of a part of n_p of the n points is computed by leaving it out: (theta - theta_without) (n -
     /// n_p)/n_p, to first order the mean of the influence function (Hampel 1974) over its points.
     pub fn new(
         replicates: &[&MomentParts],
-        whole: Vec<f64>,
+        estimates: Vec<f64>,
         without: &[Option<Vec<f64>>],
         n: f64,
         of_parts: &[f64],
     ) -> Self {
-        let columns = without.iter().zip(of_parts).map(|(without, n_p)| influence(&whole, without.as_ref(), n, *n_p));
+        let columns =
+            without.iter().zip(of_parts).map(|(without, n_p)| influence(&estimates, without.as_ref(), n, *n_p));
         let columns: Vec<Vec<f64>> = columns.collect();
-        let parts = (0..whole.len()).map(|q| by_replicate(replicates, &columns, q)).collect();
-        Self { whole, parts }
+        let parts = (0..estimates.len()).map(|q| by_replicate(replicates, &columns, q)).collect();
+        Self { estimates, parts }
     }
 }
 
@@ -44,7 +45,7 @@ impl Influences {
 #[derive(Debug, Clone)]
 pub struct LeftOut<T> {
     /// The value on all parts.
-    pub whole: T,
+    pub of_all: T,
     /// The values on all but each part, the parts of all replicates in a row.
     pub without: Vec<T>,
     /// Total number of base points.
@@ -57,7 +58,7 @@ impl<T> LeftOut<T> {
     /// Evaluates `of` on the parts of `replicates`.
     pub fn new(replicates: &[&MomentParts], of: &dyn Fn(&Moments) -> T) -> Self {
         let parts: Vec<&Moments> = replicates.iter().flat_map(|replicate| replicate.parts()).collect();
-        let sums: Vec<Moments> = replicates.iter().map(|replicate| replicate.whole()).collect();
+        let sums: Vec<Moments> = replicates.iter().map(|replicate| replicate.sum()).collect();
         let all = merged(&sums);
         // The parts before each part, and (from the back) after it: two passes instead of one per part.
         let mut before = vec![Moments::default()];
@@ -77,16 +78,16 @@ impl<T> LeftOut<T> {
         }
         without.reverse();
         let points_of_parts = parts.iter().map(|part| part.count() as f64).collect();
-        Self { whole: of(&all), without, points: all.count() as f64, points_of_parts }
+        Self { of_all: of(&all), without, points: all.count() as f64, points_of_parts }
     }
 }
 
-fn influence(whole: &[f64], without: Option<&Vec<f64>>, n: f64, n_p: f64) -> Vec<f64> {
+fn influence(estimates: &[f64], without: Option<&Vec<f64>>, n: f64, n_p: f64) -> Vec<f64> {
     if n_p == 0.0 {
-        return vec![0.0; whole.len()];
+        return vec![0.0; estimates.len()];
     }
-    let Some(without) = without else { return vec![f64::NAN; whole.len()] };
-    whole.iter().zip(without).map(|(theta, without)| (theta - without) * ((n - n_p) / n_p)).collect()
+    let Some(without) = without else { return vec![f64::NAN; estimates.len()] };
+    estimates.iter().zip(without).map(|(theta, without)| (theta - without) * ((n - n_p) / n_p)).collect()
 }
 
 /// Returns the influences on quantity `q`, sorted into replicates.

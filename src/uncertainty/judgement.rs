@@ -30,7 +30,7 @@ impl Judgement {
         let errors = method.errors(&influences.parts, kinds);
         let mut judgements = Vec::with_capacity(errors.len());
         for (((estimate, parts), error), kind) in
-            influences.whole.into_iter().zip(influences.parts).zip(errors).zip(kinds)
+            influences.estimates.into_iter().zip(influences.parts).zip(errors).zip(kinds)
         {
             let interval = interval(estimate, error, &parts, kind.side);
             judgements.push(Self::new(Estimate { estimate, interval }, error, parts));
@@ -40,7 +40,7 @@ impl Judgement {
 
     /// Combines estimates with errors and intervals from elsewhere.
     pub fn with_bounds(influences: Influences, bounds: Vec<Bounds>) -> Vec<Self> {
-        let numbers = influences.whole.into_iter().zip(influences.parts).zip(bounds);
+        let numbers = influences.estimates.into_iter().zip(influences.parts).zip(bounds);
         numbers
             .map(|((estimate, parts), (error, interval))| Self::new(Estimate { estimate, interval }, error, parts))
             .collect()

@@ -27,7 +27,6 @@ fn files_without_an_end_are_refused() {
     let manifest = folder.path("endless.csv.manifest.json");
     std::os::unix::fs::symlink("/dev/zero", &manifest).unwrap();
     messages.refused(&["analyze", text(&endless)]);
-    messages.refused(&["analyze", text(&endless), "--layout", "salib", "--names", "a,b"]);
 }
 
 #[cfg(target_os = "linux")]

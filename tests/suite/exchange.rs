@@ -286,9 +286,6 @@ fn a_file_without_a_header_is_found_out() {
     let mut messages = messages!();
     sampled.refused(&mut messages, "outputs", ("data.csv", &[]), "line 1 ");
     assert_eq!(sampled.analyze("data.csv", &["--no-header"]).status.code(), Some(0));
-    sampled.write("y.csv", &forces[..48]);
-    let salib = ["--layout", "salib", "--names", "x1,x2"];
-    sampled.refused(&mut messages, "of SALib", ("y.csv", &salib), "line 1 ");
 }
 
 #[test]

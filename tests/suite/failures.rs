@@ -204,7 +204,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     messages.ended("no failure is allowed", 1, &output);
     let json = std::fs::read_to_string(out.join("holes.json")).unwrap();
     let result: apportion::result::StudyResult = serde_json::from_str(&json).unwrap();
-    messages.add("the reason in the result", result.outputs[0].reason.as_ref().unwrap());
+    messages.add("the reason in the result", &result.outputs[0].reason.unwrap().to_string());
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
     assert!(out.join("charts/holes-distribution.png").exists());
     // An allowed failure is not an error.

@@ -118,9 +118,9 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
         (output.mean.unwrap(), output.variance.unwrap(), output.distribution.as_ref().unwrap());
     let n = distribution.values as f64;
     assert!(n < 512.0 && n > 450.0);
-    assert!((mean - distribution.sample.mean).abs() < 1e-14 * mean, "{mean} {}", distribution.sample.mean);
+    assert!((mean - distribution.mean).abs() < 1e-14 * mean, "{mean} {}", distribution.mean);
     let sd = (variance * n / (n - 1.0)).sqrt();
-    assert!((sd / distribution.sample.sd.unwrap() - 1.0).abs() < 1e-13, "{sd} {:?}", distribution.sample.sd);
+    assert!((sd / distribution.sd.unwrap() - 1.0).abs() < 1e-13, "{sd} {:?}", distribution.sd);
     let interval = output.mean_interval.unwrap();
     assert!(((interval.low + interval.high) / 2.0 - mean).abs() < 1e-12, "{interval:?} about {mean}");
     let interval = output.variance_interval.unwrap();

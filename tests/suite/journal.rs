@@ -323,7 +323,7 @@ fn two_runs_do_not_write_one_journal() {
 }
 
 #[test]
-fn a_quick_run_keeps_no_journal_and_is_doubled_to_the_same_bits() {
+fn a_quick_run_keeps_no_journal_and_grows_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
     let (grown, long) = (folder.path().join("grown"), folder.path().join("long"));
     let study = study_path("ishigami");
@@ -331,7 +331,7 @@ fn a_quick_run_keeps_no_journal_and_is_doubled_to_the_same_bits() {
     assert_eq!(run(&grown, &["--base-samples", "512"]).status.code(), Some(0));
     assert!(!grown.join("ishigami.journal").exists());
     assert_eq!(run(&grown, &["--base-samples", "512", "--resume"]).status.code(), Some(2));
-    assert_eq!(run(&grown, &["--double"]).status.code(), Some(0));
+    assert_eq!(run(&grown, &["--base-samples", "1024"]).status.code(), Some(0));
     assert_eq!(run(&long, &["--base-samples", "1024"]).status.code(), Some(0));
     assert!(numbers(&grown, "ishigami") == numbers(&long, "ishigami"));
 }

@@ -2,58 +2,24 @@
 
 use std::path::Path;
 
-use apportion::result::read_result;
-
 use crate::common::{Folder, apportion, files, stderr, succeed, text};
 use crate::messages::messages;
 
 const SLOW: &str = "model = \"command\"\noutputs = [\"y\"]\ncommand = [\"python3\", \"model.py\"]\n[factors.a]\nmin = 0\nmax = 1\n\
                     [factors.b]\nmin = 0\nmax = 2\n";
 
-const MODEL: &str = "import sys\nfor line in sys.stdin:\n    cells = line.split(',')\n    try:\n        \
-                     print(cells[0], float(cells[-2]) + float(cells[-1]) ** 2, sep=',', flush=True)\n    except ValueError:\n        pass\n";
-
 const SUM: &str = "model = \"expression\"\n[outputs]\ny = { formula = \"a + b^2\", unit = \"mm\" }\n\
                    [design]\nbase_samples = 8\n[factors.a]\nmin = 0\nmax = 1\nunit = \"mm\"\nnominal = 0.25\n\
                    [factors.b]\nmin = 0\nmax = 2\n";
 
 #[test]
-fn a_split_design_is_doubled_as_it_is() {
-    let folder = Folder::new();
-    folder.with("model.py", MODEL);
-    let (study, out) = (folder.with("s.toml", SLOW), folder.path("out"));
-    let [study, out] = [text(&study), text(&out)];
-    let design = || read_result(&Path::new(out).join("s.json")).map(|result| result.provenance).unwrap();
-    succeed(&["run", study, "--runs", "100", "--out", out, "--charts", "none"]);
-    let first = design();
-    assert!(first.plain_rows > 0);
-    for _ in 0..2 {
-        let before = design();
-        let doubled =
-            apportion(&["run", study, "--set", "design.runs=100", "--double", "--out", out, "--charts", "none"]);
-        assert_eq!(doubled.status.code(), Some(0), "{}", stderr(&doubled));
-        let (now, recorded) = (design(), format!("{} of {} runs ", before.model_runs, 2 * before.model_runs));
-        assert!(stderr(&doubled).contains(&recorded), "{}", stderr(&doubled));
-        assert_eq!((now.base_samples, now.plain_rows), (2 * before.base_samples, first.plain_rows));
-    }
-    assert!(!files(Path::new(out)).contains("s.journal.old"));
-    // Another design cannot resume, and no file changes.
-    let before = std::fs::read(Path::new(out).join("s.journal")).unwrap();
-    messages!().refused(&["run", study, "--set", "design.runs=100", "--double", "--seed", "7", "--out", out]);
-    assert_eq!(std::fs::read(Path::new(out).join("s.journal")).unwrap(), before);
-}
-
-#[test]
-fn a_run_that_chose_its_design_is_not_doubled_but_made_more_accurate() {
+fn a_run_that_chose_its_design_is_made_more_accurate() {
     let folder = Folder::new();
     let (study, out) = (folder.with("s.toml", SUM), folder.path("out"));
     let [study, out] = [text(&study), text(&out)];
     let said = succeed(&["run", study, "--accuracy", "0.05", "--out", out, "--charts", "none"]);
     assert!(said.contains("\n    [design]\n    runs = "), "{said}");
-    let (before, mut messages) = (files(Path::new(out)), messages!());
-    messages.refused(&["run", study, "--double", "--out", out]);
-    messages.refused(&["run", study, "--retry-failed", "--out", out]);
-    assert_eq!(files(Path::new(out)), before);
+    let before = files(Path::new(out));
     succeed(&["run", study, "--accuracy", "0.025", "--out", out, "--charts", "none"]);
     assert_eq!(files(Path::new(out)), before);
 }

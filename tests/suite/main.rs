@@ -49,7 +49,6 @@ mod reproduce;
 mod result_reading;
 mod rows;
 mod run_measures;
-mod salib;
 mod scatter;
 mod scene_files;
 mod scenes;

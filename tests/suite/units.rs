@@ -48,7 +48,7 @@ fn a_program_works_in_the_units_of_its_study() {
     assert!((heat.variance.unwrap() / (9.9f64.powi(2) / 12.0) - 1.0).abs() < 0.02, "{:?}", heat.variance);
     let (low, high) = heat.variance_interval.map(|interval| (interval.low, interval.high)).unwrap();
     assert!(0.0 < low && low < high && high < 20.0, "{low} {high}");
-    let sample = &heat.distribution.as_ref().unwrap().sample;
+    let sample = heat.distribution.as_ref().unwrap();
     assert!((sample.sd.unwrap() - 9.9 / 12f64.sqrt()).abs() < 0.05, "{:?}", sample.sd);
     assert!(20.1 <= sample.min && sample.max <= 30.0, "{} {}", sample.min, sample.max);
     let histogram = sample.histogram.as_ref().unwrap();

@@ -157,9 +157,9 @@ pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// Returns the end of a message about an unknown name, if a similar one exists; two candidates are joined by "and".
+/// Returns the end of a message about an unknown name, if a similar one exists.
 pub fn did_you_mean(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
+    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
 }
 
 #[cfg(test)]

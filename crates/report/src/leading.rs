@@ -8,7 +8,7 @@ use apportion_base::special::normal_quantile;
 use apportion_base::text::listed;
 
 use super::format::{chance, count, index, name, percent};
-use super::output_view::{OutputView, effects};
+use super::output_view::{OutputView, effects, reason_in_words};
 use super::precision::precision_sentence;
 
 /// Probability from which on a lead counts as certain.
@@ -164,8 +164,7 @@ pub(super) fn leader_of_all(indices: &[Named<IndexPair<Estimate>>], of: &str) ->
 
 /// Says why an output has no indices.
 pub(super) fn no_indices(output: &OutputResult) -> String {
-    let reason = output.reason.as_deref().unwrap_or("the result has none");
-    format!("There are no indices of {}: {reason}.", name(&output.name))
+    format!("There are no indices of {}: {}.", name(&output.name), reason_in_words(output.reason))
 }
 
 /// Returns the first of these sentences, one for each output, and the number of the others.

@@ -2,7 +2,7 @@
 
 use apportion::result::{Named, OutputResult, SeriesRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate};
-use apportion::{IndexPair, Scaling};
+use apportion::{IndexPair, Scaling, Undefined};
 
 use crate::format::name;
 
@@ -57,7 +57,7 @@ pub(crate) struct Together<'a> {
     pub weighting: &'static str,
     pub indices: Option<&'a [Named<IndexPair<Estimate>>]>,
     pub noise: Option<&'a Named<IndexPair<Estimate>>>,
-    pub reason: Option<&'a str>,
+    pub reason: Option<Undefined>,
 }
 
 impl<'a> OutputView<'a> {
@@ -70,7 +70,7 @@ impl<'a> OutputView<'a> {
             weighting: weighting(record.weighting),
             indices: record.indices.as_deref(),
             noise: record.noise.as_ref(),
-            reason: record.reason.as_deref(),
+            reason: record.reason,
         });
         Self {
             result,
@@ -101,7 +101,7 @@ impl<'a> OutputView<'a> {
             weighting: WEIGHTING,
             indices: series.indices.as_deref(),
             noise: None,
-            reason: series.reason.as_deref(),
+            reason: series.reason,
         };
         let label = format!("{} as a whole", name(&series.name));
         let factors = self.factors.clone();
@@ -126,9 +126,14 @@ impl<'a> OutputView<'a> {
     }
 
     /// Returns why there are no indices of all of its outputs together.
-    pub fn reason(&self) -> &'a str {
-        self.together.as_ref().and_then(|together| together.reason).unwrap_or("the result has none")
+    pub fn reason(&self) -> String {
+        reason_in_words(self.together.as_ref().and_then(|together| together.reason))
     }
+}
+
+/// Says why there are no indices.
+pub(crate) fn reason_in_words(reason: Option<Undefined>) -> String {
+    reason.map_or_else(|| "the result has none".to_owned(), |reason| reason.to_string())
 }
 
 /// A choice of one of the indices of a factor.

@@ -182,7 +182,8 @@ class OutputResult(Shown):
     @property
     def reason(self) -> str | None:
         """The reason if there are no indices."""
-        return self.record["reason"]
+        reason = self.record["reason"]
+        return reason and reason["text"]
 
     @property
     def first_order(self) -> Indices:

@@ -451,7 +451,8 @@ def _with_warnings(result: Result) -> Result:
     """The result, with every warning of it warned of; a `RunError` if no output has an index."""
     records = result.to_dict()["outputs"]
     if all(record.get("indices") is None for record in records):
-        reasons = "; ".join(f"{record['name']}: {record.get('reason') or 'it does not vary'}" for record in records[:3])
+        why = [(record.get("reason") or {}).get("text", "it does not vary") for record in records[:3]]
+        reasons = "; ".join(f"{record['name']}: {reason}" for record, reason in zip(records, why))
         error = RunError(f"there are no indices: {reasons}")
         error.result = result
         raise error

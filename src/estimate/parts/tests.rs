@@ -38,17 +38,17 @@ fn the_whole_does_not_depend_on_when_parts_were_paired() {
     joined.append(&parts(256, 512, 16));
     let mut right = parts(512, 768, 256);
     right.append(&parts(768, 1024, 256));
-    assert_eq!(joined.whole(), fine.prefix(32).whole());
+    assert_eq!(joined.sum(), fine.prefix(32).sum());
     joined.append(&parts(512, 1024, 16));
-    assert_eq!(joined.whole(), fine.whole());
-    assert_eq!(joined.whole().count(), 1024);
+    assert_eq!(joined.sum(), fine.sum());
+    assert_eq!(joined.sum().count(), 1024);
 }
 
 #[test]
 fn nothing_appended_to_nothing() {
     let mut none = MomentParts::default();
     none.append(&MomentParts::default());
-    assert_eq!(none.whole().count(), 0);
+    assert_eq!(none.sum().count(), 0);
     none.append(&parts(0, 10, 4));
     assert_eq!(none, parts(0, 10, 4));
     none.append(&MomentParts::default());

@@ -15,7 +15,7 @@ fn an_offset_of_1e9_changes_no_index_of_a_centred_estimator() {
     // On a lattice of 2^-20, which the offset leaves exact.
     let sample = Sample::noise(1000, 0.0).map(|y| (y * 1048576.0).round() / 1048576.0);
     let plain = centred(everything(&sample.moments()));
-    assert_eq!(plain.len(), 2 * (7 + 6) + 2);
+    assert_eq!(plain.len(), 2 * (7 + 6) + 1);
     for offset in [1.0, -1e6, 1e9] {
         let shifted = centred(everything(&sample.map(|y| y + offset).moments()));
         // A mean at 1e9 is known to 1e-7; it enters squared, or times the difference of two other means, here below
@@ -56,15 +56,15 @@ proptest! {
         for cut in cuts.windows(2) {
             merged.merge(&sample.part(cut[0]..cut[1]).moments());
         }
-        let whole = sample.moments();
+        let all = sample.moments();
         for swap in 0..2 {
-            prop_assert_eq!(merged.swap(swap).base.n, whole.swap(swap).base.n);
+            prop_assert_eq!(merged.swap(swap).base.n, all.swap(swap).base.n);
         }
-        prop_assert_eq!((merged.count(), merged.constant()), (whole.count(), whole.constant()));
+        prop_assert_eq!((merged.count(), merged.constant()), (all.count(), all.constant()));
         // Means at 1e3 are known to 1e-13; the uncentred estimators multiply that by the offset over a variance of 0.1.
         let tolerance = 1e-11 * (1.0 + offset.abs());
-        for ((name, merged), (_, whole)) in everything(&merged).iter().zip(&everything(&whole)) {
-            prop_assert!((merged - whole).abs() < tolerance, "{}: {} is not {}", name, merged, whole);
+        for ((name, merged), (_, all)) in everything(&merged).iter().zip(&everything(&all)) {
+            prop_assert!((merged - all).abs() < tolerance, "{}: {} is not {}", name, merged, all);
         }
     }
 
@@ -77,13 +77,13 @@ proptest! {
         let values: Vec<f64> = noise(500, 4).iter().map(|y| (libm::exp(*y) + offset) * 2f64.powi(exponent)).collect();
         let mut merged = CentralMoments::from_values(&values[..cut]);
         merged.merge(&CentralMoments::from_values(&values[cut..]));
-        let whole = CentralMoments::from_values(&values);
-        prop_assert_eq!((merged.count(), merged.range()), (500, whole.range()));
+        let all = CentralMoments::from_values(&values);
+        prop_assert_eq!((merged.count(), merged.range()), (500, all.range()));
         let near = |a: Option<f64>, b: Option<f64>| (a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9;
-        prop_assert!(near(merged.mean(), whole.mean()) && near(merged.variance(), whole.variance()));
+        prop_assert!(near(merged.mean(), all.mean()) && near(merged.variance(), all.variance()));
         // m4 of an output times 2^200 is 2^800: still a double.
-        prop_assert!(near(merged.skewness(), whole.skewness()));
-        prop_assert!((merged.excess_kurtosis().unwrap() - whole.excess_kurtosis().unwrap()).abs() < 1e-9);
+        prop_assert!(near(merged.skewness(), all.skewness()));
+        prop_assert!((merged.excess_kurtosis().unwrap() - all.excess_kurtosis().unwrap()).abs() < 1e-9);
     }
 }
 

@@ -2,29 +2,15 @@
 
 use std::ops::RangeInclusive;
 
-/// A function of one argument.
-#[derive(Clone, Copy, Debug)]
-pub struct OfOne {
-    pub name: &'static str,
-    pub value: fn(f64) -> f64,
-}
-
-/// A function of two arguments.
-#[derive(Clone, Copy, Debug)]
-pub struct OfTwo {
-    pub name: &'static str,
-    pub value: fn(f64, f64) -> f64,
-}
-
 /// The computation of a function.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// Of one argument.
-    One(OfOne),
+    One(fn(f64) -> f64),
     /// Of two arguments.
-    Two(OfTwo),
+    Two(fn(f64, f64) -> f64),
     /// Of two or more arguments, combined from left to right.
-    Several(OfTwo),
+    Several(fn(f64, f64) -> f64),
     /// `if(condition, then, else)`.
     Select,
 }
@@ -44,55 +30,44 @@ impl Function {
     }
 }
 
-type Named = (&'static str, Function);
-
-const fn one(name: &'static str, value: fn(f64) -> f64) -> Named {
-    (name, Function::One(OfOne { name, value }))
-}
-
-const fn two(name: &'static str, value: fn(f64, f64) -> f64) -> Named {
-    (name, Function::Two(OfTwo { name, value }))
-}
-
-const fn several(name: &'static str, value: fn(f64, f64) -> f64) -> Named {
-    (name, Function::Several(OfTwo { name, value }))
-}
+/// A function with its name.
+pub(super) type Named = (&'static str, Function);
 
 const FUNCTIONS: [Named; 28] = [
-    one("sin", libm::sin),
-    one("cos", libm::cos),
-    one("tan", libm::tan),
-    one("asin", libm::asin),
-    one("acos", libm::acos),
-    one("atan", libm::atan),
-    one("sinh", libm::sinh),
-    one("cosh", libm::cosh),
-    one("tanh", libm::tanh),
-    one("exp", libm::exp),
-    one("expm1", libm::expm1),
-    one("ln", libm::log),
-    one("log1p", libm::log1p),
-    one("log2", libm::log2),
-    one("log10", libm::log10),
-    one("sqrt", f64::sqrt),
-    one("cbrt", libm::cbrt),
-    one("abs", f64::abs),
-    one("floor", f64::floor),
-    one("ceil", f64::ceil),
-    one("round", f64::round),
-    one("erf", libm::erf),
-    one("gamma", libm::tgamma),
-    two("atan2", libm::atan2),
-    two("hypot", libm::hypot),
-    several("min", least),
-    several("max", largest),
+    ("sin", Function::One(libm::sin)),
+    ("cos", Function::One(libm::cos)),
+    ("tan", Function::One(libm::tan)),
+    ("asin", Function::One(libm::asin)),
+    ("acos", Function::One(libm::acos)),
+    ("atan", Function::One(libm::atan)),
+    ("sinh", Function::One(libm::sinh)),
+    ("cosh", Function::One(libm::cosh)),
+    ("tanh", Function::One(libm::tanh)),
+    ("exp", Function::One(libm::exp)),
+    ("expm1", Function::One(libm::expm1)),
+    ("ln", Function::One(libm::log)),
+    ("log1p", Function::One(libm::log1p)),
+    ("log2", Function::One(libm::log2)),
+    ("log10", Function::One(libm::log10)),
+    ("sqrt", Function::One(f64::sqrt)),
+    ("cbrt", Function::One(libm::cbrt)),
+    ("abs", Function::One(f64::abs)),
+    ("floor", Function::One(f64::floor)),
+    ("ceil", Function::One(f64::ceil)),
+    ("round", Function::One(f64::round)),
+    ("erf", Function::One(libm::erf)),
+    ("gamma", Function::One(libm::tgamma)),
+    ("atan2", Function::Two(libm::atan2)),
+    ("hypot", Function::Two(libm::hypot)),
+    ("min", Function::Several(least)),
+    ("max", Function::Several(largest)),
     ("if", Function::Select),
 ];
 
 const NUMBERS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 
-pub(super) fn named(name: &str) -> Option<Function> {
-    FUNCTIONS.into_iter().find(|(other, _)| *other == name).map(|(_, function)| function)
+pub(super) fn named(name: &str) -> Option<Named> {
+    FUNCTIONS.into_iter().find(|(other, _)| *other == name)
 }
 
 pub(super) fn number(name: &str) -> Option<f64> {

@@ -11,9 +11,8 @@ mod program;
 mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
-pub use functions::{OfOne, OfTwo};
-pub use program::{Comparison, Stack, Step};
-use program::{Program, TILE};
+pub use program::{Comparison, Step};
+use program::{Program, Stack, TILE};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 

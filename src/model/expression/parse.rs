@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Symbol;
 use super::error::{ExpressionError, ExpressionProblem};
-use super::functions::{self, Function};
+use super::functions::{self, Function, Named};
 use super::program::{Comparison, Program, Step};
 use super::token::{Token, tokens};
 
@@ -167,7 +167,7 @@ impl Parser<'_> {
                     return self.name(&name, place);
                 }
                 let function = self.function(&name, place.clone())?;
-                self.call(&name, function, place)
+                self.call(function, place)
             }
             Token::Sign("(") => {
                 self.advance();
@@ -189,7 +189,7 @@ impl Parser<'_> {
                 return Ok(());
             }
             (None, Some(function)) => {
-                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments().2 }
+                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.1.arguments().2 }
             }
             (None, None) => ExpressionProblem::UnknownName(name.to_owned()),
         };
@@ -197,7 +197,7 @@ impl Parser<'_> {
     }
 
     /// Returns the function of that name, which is followed by `(`.
-    fn function(&self, name: &str, place: Range<usize>) -> Result<Function, ExpressionError> {
+    fn function(&self, name: &str, place: Range<usize>) -> Result<Named, ExpressionError> {
         functions::named(name).ok_or_else(|| {
             let problem = match name {
                 "log" => ExpressionProblem::Log,
@@ -211,14 +211,14 @@ impl Parser<'_> {
     }
 
     /// Parses the arguments of a function, after `(`.
-    fn call(&mut self, name: &str, function: Function, place: Range<usize>) -> Parsed {
+    fn call(&mut self, (name, function): Named, place: Range<usize>) -> Parsed {
         let mut count = 0;
         if !self.take(")") {
             loop {
                 self.deeper(Self::comparison)?;
                 count += 1;
                 if let (Function::Several(of_two), 2..) = (function, count) {
-                    self.program.push(Step::Two(of_two));
+                    self.program.push(Step::Two(name, of_two));
                 }
                 if self.take(")") {
                     break;
@@ -237,8 +237,8 @@ impl Parser<'_> {
             });
         }
         match function {
-            Function::One(of_one) => self.program.push(Step::One(of_one)),
-            Function::Two(of_two) => self.program.push(Step::Two(of_two)),
+            Function::One(of_one) => self.program.push(Step::One(name, of_one)),
+            Function::Two(of_two) => self.program.push(Step::Two(name, of_two)),
             Function::Select => self.program.push(Step::Select),
             Function::Several(_) => (),
         }

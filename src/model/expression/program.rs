@@ -1,7 +1,5 @@
 //! A formula as steps on a stack of columns.
 
-use super::functions::{OfOne, OfTwo};
-
 /// Number of rows computed at a time: a few columns of them fit in the nearest cache.
 pub const TILE: usize = 256;
 
@@ -41,14 +39,16 @@ pub enum Step {
     Negate,
     /// An integer power, by multiplication.
     Power(i32),
-    One(OfOne),
+    /// A function of one argument, with its name.
+    One(&'static str, fn(f64) -> f64),
     Add,
     Subtract,
     Multiply,
     Divide,
     Raise,
     Compare(Comparison),
-    Two(OfTwo),
+    /// A function of two arguments, with its name.
+    Two(&'static str, fn(f64, f64) -> f64),
     Select,
 }
 
@@ -107,12 +107,16 @@ impl Program {
 
     /// Computes the values of up to [`TILE`] rows, those of `inputs` from row `first` on.
     pub fn run(&self, inputs: &[&[f64]], first: usize, values: &mut [f64], stack: &mut Stack) {
-        self.run_with(inputs, first, values, stack, |_, _| ());
+        self.run_steps(inputs, first, values, stack, |_, _| ());
     }
 
-    /// Does the same, where `after` may change the results of every step.
+    /// Does the same for the first rows, where `after` may change the results of every step.
+    pub fn run_with(&self, inputs: &[&[f64]], values: &mut [f64], after: impl FnMut(&Step, &mut [f64])) {
+        self.run_steps(inputs, 0, values, &mut Stack::default(), after);
+    }
+
     #[inline(always)]
-    pub fn run_with(
+    fn run_steps(
         &self,
         inputs: &[&[f64]],
         first: usize,
@@ -137,14 +141,14 @@ impl Program {
                 Step::Negate => top.iter_mut().for_each(|x| *x = -*x),
                 Step::Power(2) => top.iter_mut().for_each(|x| *x *= *x),
                 Step::Power(power) => top.iter_mut().for_each(|x| *x = x.powi(*power)),
-                Step::One(OfOne { value, .. }) => top.iter_mut().for_each(|x| *x = value(*x)),
+                Step::One(_, value) => top.iter_mut().for_each(|x| *x = value(*x)),
                 Step::Add => with(top, &above[0], |a, b| a + b),
                 Step::Subtract => with(top, &above[0], |a, b| a - b),
                 Step::Multiply => with(top, &above[0], |a, b| a * b),
                 Step::Divide => with(top, &above[0], |a, b| a / b),
                 Step::Raise => with(top, &above[0], libm::pow),
                 Step::Compare(comparison) => with(top, &above[0], |a, b| comparison.holds(a, b)),
-                Step::Two(OfTwo { value, .. }) => with(top, &above[0], value),
+                Step::Two(_, value) => with(top, &above[0], value),
                 Step::Select => {
                     for ((condition, then), other) in top.iter_mut().zip(&above[0]).zip(&above[1]) {
                         *condition = match *condition {
@@ -173,7 +177,7 @@ impl Step {
     pub fn operands(self) -> usize {
         match self {
             Self::Input(_) | Self::Number(_) => 0,
-            Self::Negate | Self::Power(_) | Self::One(_) => 1,
+            Self::Negate | Self::Power(_) | Self::One(..) => 1,
             Self::Select => 3,
             _ => 2,
         }

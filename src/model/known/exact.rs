@@ -1,5 +1,7 @@
 //! Exact mean, variance and indices, and the rules for families of functions.
 
+use crate::effect::IndexPair;
+
 /// Mean, variance and indices of a function of independent inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exact {
@@ -7,19 +9,10 @@ pub struct Exact {
     pub mean: f64,
     /// The variance.
     pub variance: f64,
-    /// The indices; `None` if the variance is 0.
-    pub indices: Option<ExactIndices>,
+    /// The indices S_i and ST_i of the inputs; `None` if the variance is 0.
+    pub indices: Option<IndexPair<Vec<f64>>>,
     /// How they were computed.
     pub basis: Basis,
-}
-
-/// Sobol' indices as shares of the variance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExactIndices {
-    /// First-order indices S_i.
-    pub first_order: Vec<f64>,
-    /// Total indices ST_i.
-    pub total: Vec<f64>,
 }
 
 /// How exact values were computed.
@@ -65,14 +58,14 @@ impl Exact {
 
     /// Creates it from the indices themselves.
     pub(super) fn closed(mean: f64, variance: f64, first_order: Vec<f64>, total: Vec<f64>) -> Self {
-        let indices = (variance > 0.0).then_some(ExactIndices { first_order, total });
+        let indices = (variance > 0.0).then_some(IndexPair { first_order, total });
         Self { mean, variance, indices, basis: Basis::ClosedForm }
     }
 
     /// Creates it from a table of references: the first-order and the total index of each input.
     pub(super) fn by_quadrature(mean: f64, variance: f64, indices: &[[f64; 2]], error: f64) -> Self {
         let (first_order, total) = indices.iter().map(|[first, total]| (*first, *total)).unzip();
-        let indices = ExactIndices { first_order, total };
+        let indices = IndexPair { first_order, total };
         Self { mean, variance, indices: Some(indices), basis: Basis::Quadrature { error } }
     }
 }

@@ -28,7 +28,7 @@ mod wing_weight;
 use std::fmt;
 use std::sync::Arc;
 
-pub use exact::{Basis, Exact, ExactIndices};
+pub use exact::{Basis, Exact};
 pub use function::KnownInput;
 use function::{Made, Value};
 use parameters::ParameterReader;

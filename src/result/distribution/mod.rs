@@ -15,7 +15,9 @@ pub struct OutputDistribution {
     /// The unit of the numbers.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub unit: Unit,
-    /// Number of values n.
+    /// Number of values n of mean, standard deviation, skewness, kurtosis and range.
+    pub values: u64,
+    /// Number of values of quantiles and histogram: those that were kept, the first of every replicate of a run.
     pub count: u64,
     /// Arithmetic mean.
     pub mean: f64,
@@ -92,6 +94,7 @@ impl OutputDistribution {
         let varied = max - min > ROUNDING;
         Some(Self {
             unit: unit.clone(),
+            values: sorted.len() as u64,
             count: sorted.len() as u64,
             mean: value(mean.clamp(min, max)),
             sd: (sorted.len() > 1).then(|| unit.span_from_si(libm::scalbn(sd, exponent))).filter(|sd| sd.is_finite()),

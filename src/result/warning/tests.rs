@@ -54,7 +54,7 @@ fn examples() -> Vec<Warning> {
 }
 
 fn json(warnings: &[Warning]) -> Vec<serde_json::Value> {
-    with_texts(warnings, serde_json::value::Serializer).unwrap().as_array().unwrap().clone()
+    crate::result::with_text::with_texts(warnings, serde_json::value::Serializer).unwrap().as_array().unwrap().clone()
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn the_tree_is_that_of_a_binary_counter() {
         }
     }
     // A run of a power of two of blocks is the left half of one that is twice as long.
-    let (mut grown, rest, whole) = (fold(job, 0..1024), fold(job, 1024..2048), fold(job, 0..2048));
+    let (mut grown, rest, all) = (fold(job, 0..1024), fold(job, 1024..2048), fold(job, 0..2048));
     grown.iter_mut().zip(&rest).for_each(|(totals, rest)| totals.merge(rest));
-    assert!(format!("{grown:?}") == format!("{whole:?}"));
+    assert!(format!("{grown:?}") == format!("{all:?}"));
 }

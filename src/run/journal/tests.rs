@@ -59,15 +59,15 @@ fn a_truncated_journal_keeps_every_complete_record_and_resumes() {
             );
             continue;
         }
-        let whole = ends.iter().rposition(|end| *end <= length).unwrap();
+        let complete = ends.iter().rposition(|end| *end <= length).unwrap();
         std::fs::write(&path, &bytes[..length]).unwrap();
         let (journal, contents) = Journal::resume(&path).unwrap();
-        assert_same(&contents.blocks, &blocks[..whole]);
-        assert_eq!(contents.cut_off, (length - ends[whole]) as u64);
+        assert_same(&contents.blocks, &blocks[..complete]);
+        assert_eq!(contents.cut_off, (length - ends[complete]) as u64);
         journal.append(&block(40, 1)).unwrap();
         drop(journal);
         let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
-        assert_same(&contents.blocks[whole..], &[block(40, 1)]);
+        assert_same(&contents.blocks[complete..], &[block(40, 1)]);
         assert_eq!(contents.cut_off, 0);
     }
 }

@@ -76,7 +76,7 @@ fn shards_make_up_the_whole_run() {
     let model = counted(&rows);
     let design = design(700, 2);
     let plain = format!("{:?}", run(Job { design: &design, space: &space(), model: &model }, 1, &|_| ()).unwrap());
-    let whole = Store::new(&model);
+    let all = Store::new(&model);
     for number in [3, 1, 2] {
         let shard: Shard = format!("{number}/3").parse().unwrap();
         let part = Store::new(&model);
@@ -90,11 +90,11 @@ fn shards_make_up_the_whole_run() {
         run.journal = Some(&journal);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
         for block in read_journal_file(&path).unwrap().blocks {
-            whole.insert(&block);
+            all.insert(&block);
         }
     }
     rows.store(0, Ordering::Relaxed);
-    assert!(format!("{:?}", with_store(&design, &model, &whole, u64::MAX).unwrap()) == plain);
+    assert!(format!("{:?}", with_store(&design, &model, &all, u64::MAX).unwrap()) == plain);
     assert_eq!(rows.load(Ordering::Relaxed), 0);
 }
 

@@ -78,7 +78,7 @@ fn invalid_settings_are_refused_with_advice() {
     .map(|dependences| copula(&space, dependences).unwrap_err().to_string());
     insta::assert_snapshot!(messages.join("\n"));
     // The proposal is accepted.
-    let nearest = messages[8].split("correlation = ").nth(1).unwrap();
+    let nearest = messages[8].split("], are ").nth(1).unwrap();
     let nearest: Vec<Vec<f64>> = serde_json::from_str(nearest).unwrap();
     let proposed = Dependence::new(&["a", "b", "c"], nearest).measure(CorrelationMeasure::Normal);
     assert!(copula(&space, &[proposed]).is_ok());

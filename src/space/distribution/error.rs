@@ -41,7 +41,7 @@ pub(super) fn refused(key: &'static str, message: impl Into<String>) -> Distribu
 pub(super) fn order(lower: &'static str, low: f64, upper: &'static str, high: f64) -> DistributionError {
     let message = format!("`{lower}` is {low} and `{upper}` is {high}, but `{lower}` must be below `{upper}`");
     let is_fixed = lower == "min" && low == high;
-    let help = is_fixed.then(|| format!("for a fixed value: distribution = \"constant\", value = {low}"));
+    let help = is_fixed.then(|| format!("for a fixed value, use the constant distribution of {low}"));
     DistributionError { help, ..refused(lower, message) }
 }
 
@@ -105,7 +105,7 @@ pub(super) fn within(key: &'static str, value: f64, (min, max): (f64, f64)) -> R
 /// Checks that a parameter of a power law is large enough for a finite variance.
 pub(super) fn of_finite_variance(key: &'static str, value: f64, least: f64) -> Result<(), DistributionError> {
     let must = format!(
-        "be greater than {least:?}, or both tails be cut off, as in truncate = [a, b]: otherwise its variance is infinite and \
+        "be greater than {least:?}, or both tails be cut off (`truncate`): otherwise its variance is infinite and \
          indices are undefined"
     );
     number(key, value, value > least, &must).map(|_| ())

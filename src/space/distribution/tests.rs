@@ -54,7 +54,7 @@ fn samples() -> Vec<Distribution> {
 #[test]
 fn continuous_families_are_truncated_by_one_rule() {
     let (none, two) = (f64::NEG_INFINITY, [2.0, 5.0]);
-    let cut = |whole: Result<Distribution, Error>, [min, max]: [f64; 2]| made(whole).truncated(min, max);
+    let cut = |uncut: Result<Distribution, Error>, [min, max]: [f64; 2]| made(uncut).truncated(min, max);
     let pairs = [
         (cut(Distribution::uniform(0.0, 3.0), two), Distribution::uniform(2.0, 3.0)),
         (cut(Distribution::log_uniform(1.0, 8.0), two), Distribution::log_uniform(2.0, 5.0)),
@@ -74,16 +74,16 @@ fn continuous_families_are_truncated_by_one_rule() {
     // Nothing is cut off twice.
     let gamma = made(Distribution::gamma(2.0, 1.0, 0.0));
     assert_eq!(made(gamma.truncated(1.0, 9.0)).truncated(2.0, 5.0), gamma.truncated(2.0, 5.0));
-    for (whole, [min, max]) in [
+    for (uncut, [min, max]) in [
         (Distribution::gamma(2.0, 1.0, 0.0), [-5.0, -1.0]),
         (Distribution::normal(0.0, 1.0), [40.0, 50.0]),
         (Distribution::student_t(1e5, 0.0, 1.0), [60.0, 70.0]),
         (Distribution::uniform(0.0, 1.0), [1.0, 2.0]),
         (Distribution::constant(3.0), [4.0, 5.0]),
     ] {
-        let whole = made(whole);
-        let error = whole.truncated(min, max);
-        assert!(matches!(error, Err(Error { key: Some("truncate"), .. })), "{whole:?} {error:?}");
+        let uncut = made(uncut);
+        let error = uncut.truncated(min, max);
+        assert!(matches!(error, Err(Error { key: Some("truncate"), .. })), "{uncut:?} {error:?}");
     }
     let bounds = gamma.truncated(3.0, 2.0);
     assert_eq!(bounds.map_err(|error| error.key), Err(Some("truncate")));

@@ -73,7 +73,7 @@ impl Sample {
         Moments::of_block(block, &mut Workspace::default())
     }
 
-    fn whole(&self) -> Moments {
+    fn all(&self) -> Moments {
         self.moments(&vec![1; self.columns[0].len()])
     }
 
@@ -83,8 +83,8 @@ impl Sample {
         let replicates = [&kept];
         let points = KeptPoints { design: &self.design, replicates: &replicates, per_replicate: points };
         let by_points = ByPoints { method, points, seed: 1, resamples: 200 };
-        let estimates = quantities(&self.layout, &self.whole()).unwrap();
-        let bounds = by_points.bounds(self.whole(), &estimates, &|moments| quantities(&self.layout, moments));
+        let estimates = quantities(&self.layout, &self.all()).unwrap();
+        let bounds = by_points.bounds(self.all(), &estimates, &|moments| quantities(&self.layout, moments));
         (estimates, bounds)
     }
 }
@@ -112,7 +112,7 @@ fn resampled_moments_are_those_of_resampled_rows() {
         let kept = sample.kept();
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
-        let products = Products::new(sample.whole());
+        let products = Products::new(sample.all());
         let list = |moments: &Moments| quantities(&sample.layout, moments);
         let got = resampled(points, &products, 9, 40, &list);
         assert_eq!(got.len(), 40);
@@ -135,8 +135,8 @@ fn influences_are_what_another_copy_of_the_point_does() {
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let list = |moments: &Moments| quantities(&sample.layout, moments);
-        let errors = delta_errors(points, &Products::new(sample.whole()), &list).unwrap();
-        let whole = list(&sample.whole()).unwrap();
+        let errors = delta_errors(points, &Products::new(sample.all()), &list).unwrap();
+        let all = list(&sample.all()).unwrap();
         let n = sample.columns[0].len();
         let without = |point: usize| {
             let mut counts = vec![1; n];
@@ -144,8 +144,8 @@ fn influences_are_what_another_copy_of_the_point_does() {
             list(&sample.moments(&counts)).unwrap()
         };
         let without: Vec<Vec<f64>> = (0..n).map(without).collect();
-        for q in 0..whole.len() {
-            let deviations: Vec<f64> = without.iter().map(|values| values[q] - whole[q]).collect();
+        for q in 0..all.len() {
+            let deviations: Vec<f64> = without.iter().map(|values| values[q] - all[q]).collect();
             let mean = deviations.iter().sum::<f64>() / n as f64;
             let squares: f64 = deviations.iter().map(|d| (d - mean).powi(2)).sum();
             let expected = (squares * (n as f64 - 1.0) / n as f64).sqrt();
@@ -168,8 +168,8 @@ fn the_error_of_a_mean_is_the_textbook_one() {
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let mean = |moments: &Moments| Some(vec![moments.mean()]);
-        let whole = sample.whole().without_swaps();
-        let got = delta_errors(points, &Products::new(whole), &mean).unwrap()[0];
+        let all = sample.all().without_swaps();
+        let got = delta_errors(points, &Products::new(all), &mean).unwrap()[0];
         let halves: Vec<f64> = sample.columns[0].iter().zip(&sample.columns[1]).map(|(a, b)| (a + b) / 2.0).collect();
         let centre = halves.iter().sum::<f64>() / 1000.0;
         let variance = halves.iter().map(|y| (y - centre).powi(2)).sum::<f64>() / 999.0;
@@ -185,7 +185,7 @@ fn the_inert_factor_has_intervals_of_no_width() {
     let sample = Sample::new(300, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let (_, bounds) = sample.bounds(method);
-        let judged = estimate::quantities(&sample.layout, &sample.whole()).unwrap().zip(bounds);
+        let judged = estimate::quantities(&sample.layout, &sample.all()).unwrap().zip(bounds);
         let indices = |factor: usize| [judged.effects[factor].first_order, judged.effects[factor].total];
         for (estimate, bounds) in indices(2) {
             assert_eq!(estimate, 0.0);
@@ -255,10 +255,10 @@ fn constant_outputs_have_a_certain_mean_and_no_indices() {
     let moments = |moments: &Moments| Some(vec![moments.mean(), moments.variance()]);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let by_points = ByPoints { method, points, seed: 0, resamples: 100 };
-        let bounds = by_points.bounds(sample.whole().without_swaps(), &[0.1, 0.0], &moments);
+        let bounds = by_points.bounds(sample.all().without_swaps(), &[0.1, 0.0], &moments);
         assert_eq!(bounds[0].1, Some(Interval { low: 0.1, high: 0.1 }), "{method:?}");
         assert_eq!(bounds[1].1, Some(Interval { low: 0.0, high: 0.0 }), "{method:?}");
-        let none = by_points.bounds(sample.whole(), &[0.5], &|moments| quantities(&sample.layout, moments));
+        let none = by_points.bounds(sample.all(), &[0.5], &|moments| quantities(&sample.layout, moments));
         assert_eq!(none[0].1, None, "{method:?}");
     }
 }

@@ -1,6 +1,5 @@
 //! Files of points and outputs, and their manifests.
 
-use apportion::salib::SalibProblem;
 use apportion_files::exchange::{ColumnKind, Manifest, ReadOptions, table_of_bytes};
 
 /// Rows up to which a table is read.
@@ -14,7 +13,6 @@ pub fn run(bytes: &[u8]) {
         if let Ok(manifest) = Manifest::parse(text) {
             assert!(Manifest::parse(&manifest.json()).is_ok());
         }
-        let _ = SalibProblem::parse(text);
     }
 }
 

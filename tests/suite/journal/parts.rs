@@ -72,7 +72,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     assert!(numbers(&parts, "ishigami") == numbers(&whole, "ishigami"));
     // Merging again changes nothing; the merged journal can be resumed.
     assert_eq!(merge(&[]).status.code(), Some(0));
-    assert_eq!(ishigami_runs(&parts, &["--double"]), 5120);
+    assert_eq!(ishigami_runs(&parts, &["--base-samples", "1024"]), 5120);
 
     let other = apportion(&[&["merge", text(&study), "--out", text(&parts), "--seed", "2"], &small[..]].concat());
     messages.ended("another seed", 2, &other);

@@ -1,7 +1,7 @@
 //! Comparisons of two results.
 
-use apportion::Estimate;
 use apportion::result::{StudyResult, json};
+use apportion::{Estimate, Undefined};
 use apportion_report::comparison::{
     CompareError, ComparedIndex, ComparisonFile, NamedResult, compare_results, comparison_document,
 };
@@ -100,9 +100,9 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
 
     let mut none = a.clone();
     none.outputs[0].indices = None;
-    none.outputs[0].reason = Some("zero variance".to_owned());
+    none.outputs[0].reason = Some(Undefined::ZeroVariance);
     let file = compared(&a, &none).unwrap();
-    assert_eq!(file.outputs[0].reasons, [None, Some("zero variance".to_owned())]);
+    assert_eq!(file.outputs[0].reasons, [None, Some(Undefined::ZeroVariance.to_string())]);
     let text = comparison_document(&file, "a-vs-b").text();
     assert!(text.contains("no indices: There are none in B: zero variance") && text.contains("no intervals"), "{text}");
     for chart in comparison_document(&file, "a-vs-b").figures().into_iter().map(|figure| &figure.chart) {

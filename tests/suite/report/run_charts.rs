@@ -1,7 +1,7 @@
 //! The charts of a run.
 
 use apportion::Unit;
-use apportion::result::{DistributionRecord, OutputDistribution, OutputResult, StudyResult};
+use apportion::result::{OutputDistribution, OutputResult, StudyResult};
 use apportion::uncertainty::Estimate;
 use apportion_report::chart::{Chart, ChartWidth, Colour, Mark, Shape, Tile, png};
 use apportion_report::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
@@ -104,8 +104,7 @@ fn charts_draw_every_kind_of_sample() {
     let mut result = of_factors(1);
     result.outputs[0].name = "force".to_owned();
     let mut draw = |values: &[f64]| {
-        let sample = OutputDistribution::from_values(values, &Unit::dimensionless()).unwrap();
-        result.outputs[0].distribution = Some(DistributionRecord { values: values.len() as u64, sample });
+        result.outputs[0].distribution = OutputDistribution::from_values(values, &Unit::dimensionless());
         distribution_chart(&result, &result.outputs[0]).svg()
     };
     let cases = [normal(), vec![1e300, -1e300, 3e299], vec![2e-300, 1e-300], vec![0.0; 9], vec![7.0]];

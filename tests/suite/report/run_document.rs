@@ -1,5 +1,6 @@
 //! The document of a run.
 
+use apportion::Undefined;
 use apportion::result::{StudyResult, Warning};
 use apportion_report::document::{Document, Part};
 use apportion_report::format::PrintedEstimate;
@@ -54,7 +55,7 @@ fn degenerate_results_have_pages() {
     let output = &mut failed.outputs[0];
     (output.mean, output.variance, output.distribution) = (None, None, None);
     (output.runs_failed, output.runs_ok, output.base_points_used) = (512, 0, 0);
-    output.reason = Some("no run succeeded".to_owned());
+    output.reason = Some(Undefined::NoRuns);
     let html = page(&failed).html();
     assert!(html.contains("no run succeeded") && html.contains("512 of 512 runs (100\u{a0}%) had no value"), "{html}");
     assert!(html.contains("There are no values of y"));

@@ -309,7 +309,7 @@ fn rows(study: &Study) -> Vec<String> {
 
 /// How a growing run goes on and when it ends.
 fn stopping(study: &Study) -> Option<String> {
-    let Target { accuracy, max_time, max_runs } = study.target();
+    let Target { accuracy, max_time, max_runs, .. } = study.target();
     let ends = [
         accuracy.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
         max_time.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),

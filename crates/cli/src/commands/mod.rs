@@ -68,7 +68,7 @@ enum Command {
     Trade(trade::Arguments),
     /// Write the points of a study to a file, for an external model
     Sample(sample::Arguments),
-    /// Estimate indices from the outputs of an external model at the points of `sample`, or of SALib
+    /// Estimate indices from the outputs of an external model at the points of `sample`
     Analyze(analyze::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Resume;
-use apportion::result::{OutputResult, StudyResult, read_result};
+use apportion::result::{OutputResult, StudyResult};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 use apportion_files::exchange::{Format, write_rows};
@@ -47,9 +47,6 @@ pub struct Arguments {
     /// Neither use nor write a journal
     #[arg(long)]
     no_journal: bool,
-    /// Double the base samples of the result in the folder, and keep its runs
-    #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "runs", "shard"])]
-    double: bool,
     /// Evaluate one of N shards of the runs and write its own journal, for `apportion merge`
     #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
     shard: Option<Shard>,
@@ -57,13 +54,11 @@ pub struct Arguments {
 
 impl Arguments {
     /// What becomes of runs that are on record.
-    fn resume(&self, has_journal: bool) -> Resume {
+    fn resume(&self) -> Resume {
         match self {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
             Self { resume: true, .. } => Resume::Require,
             Self { restart: true, .. } => Resume::Restart,
-            // A journal of another design cannot be doubled.
-            Self { double: true, .. } if has_journal => Resume::Require,
             _ => Resume::IfThere,
         }
     }
@@ -73,7 +68,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     if arguments.shard.is_none() {
         ranks::refuse_copies()?;
     }
-    let study = study_of(arguments)?;
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.output.folder(study.name());
     let artefacts = arguments.output.prepared(study.name())?;
     if arguments.shard.is_some() && study.target().grows() {
@@ -105,8 +100,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     };
     // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
     let stop = stop::on_signal();
-    let mut runner =
-        runner.on_message(say).stop(stop).resume(arguments.resume(journal.as_ref().is_some_and(|path| path.exists())));
+    let mut runner = runner.on_message(say).stop(stop).resume(arguments.resume());
     if let Some(journal) = &journal {
         runner = if arguments.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
     }
@@ -148,47 +142,6 @@ fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format:
     stream_atomically(path, |out| write_rows(study, &design, Some(store), rows, format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {rows} runs to {}", path.display()));
     Ok(())
-}
-
-/// The study, with the changes that the command line makes to it.
-fn study_of(arguments: &Arguments) -> anyhow::Result<Study> {
-    let changes = arguments.design.overrides();
-    let study = arguments.study.load_with(&changes)?;
-    let &Arguments { double, retry_failed, .. } = arguments;
-    if !double && !retry_failed || arguments.design.base_samples.is_some() {
-        return Ok(study);
-    }
-    let json = arguments.output.folder(study.name()).join(format!("{}.json", study.name()));
-    let result = match read_result(&json) {
-        Ok(result) => result,
-        Err(_) if !double => return Ok(study),
-        Err(error) => return Err(bad_input(format!("--double: there is no result to double: {error}"))),
-    };
-    let (base_samples, plain_rows) = (result.provenance.base_samples, result.provenance.plain_rows);
-    let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
-    if wanted == study.design().settings().base_samples && plain_rows == study.design().plain_rows() {
-        return Ok(study);
-    }
-    match &result.spending {
-        Some(_) if !double && study.target().accuracy.is_some() => return Ok(study),
-        Some(spending) => {
-            let (option, accuracy) =
-                if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
-            return Err(bad_input(format!(
-                "{option}: {} is from a run with an accuracy, which chose its own design: use \
-                 --accuracy {accuracy} instead, which continues with its runs",
-                json.display()
-            )));
-        }
-        None => (),
-    }
-    if plain_rows != study.design().plain_rows() {
-        return Err(bad_input(format!(
-            "{}: the result has another design than the study: run the study again",
-            json.display()
-        )));
-    }
-    Ok(study.with_base_samples(wanted)?)
 }
 
 /// Writes the files of a result, and says what came out.

@@ -181,7 +181,7 @@ impl Columns {
 ///
 /// # Errors
 /// [`TableError`] if there is none, or one is not among `names`.
-pub fn output_columns(
+fn output_columns(
     names: &[String],
     outputs: &[String],
     is_input: &dyn Fn(&str) -> bool,
@@ -206,7 +206,7 @@ pub fn output_columns(
 ///
 /// # Errors
 /// [`TableError`] if it holds neither only the outputs nor the factors before them.
-pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, TableError> {
+fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, TableError> {
     match width.checked_sub(outputs) {
         Some(before) if outputs > 0 && (before == 0 || before == factors) => Ok(before),
         _ => refused(format!(

@@ -12,7 +12,7 @@ mod manifest;
 mod rows;
 mod table;
 
-pub use answers::{Answers, AnswersRequest, first_output, output_columns, read_answers};
+pub use answers::{Answers, AnswersRequest, read_answers};
 pub use design_rows::{factor_column, random_design, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};

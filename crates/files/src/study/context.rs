@@ -8,13 +8,11 @@ use std::fmt::Display;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
-use apportion_base::names::Named;
-use apportion_base::names::did_you_mean;
+use apportion_base::names::{Named, did_you_mean, nearest};
 use toml::Value;
 
 use super::at::At;
 use super::error::{Diagnostic, Problem};
-use super::synonyms::suggestion_for;
 
 /// A boxed diagnostic.
 pub(super) type Fault = Box<Diagnostic>;
@@ -43,7 +41,7 @@ impl Context {
 
 pub(super) fn unknown_name<'a>(what: &'static str, name: &str, valid: impl IntoIterator<Item = &'a str>) -> Problem {
     let valid: Vec<&str> = valid.into_iter().collect();
-    let nearest = suggestion_for(name, &valid);
+    let nearest = nearest(name, valid.iter().copied());
     Problem::UnknownName {
         what,
         name: name.to_owned(),
@@ -55,7 +53,7 @@ pub(super) fn unknown_name<'a>(what: &'static str, name: &str, valid: impl IntoI
 /// Returns the error for a key that the table does not have.
 pub(super) fn unknown_key<'a>(name: &str, valid: impl IntoIterator<Item = &'a str>) -> Problem {
     let valid: Vec<&str> = valid.into_iter().collect();
-    let hint = did_you_mean(&suggestion_for(name, &valid));
+    let hint = did_you_mean(&nearest(name, valid.iter().copied()));
     Problem::with_help(format!("unknown key `{name}`{hint}"), format!("keys allowed here: {}", valid.join(", ")))
 }
 

@@ -25,7 +25,6 @@ mod resolve;
 mod schema;
 mod sections;
 mod subjects;
-mod synonyms;
 mod template;
 mod units;
 

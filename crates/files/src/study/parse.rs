@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use apportion::design::DesignError;
 use apportion::study::BuildError;
+use apportion_base::names::nearest;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
@@ -16,7 +17,6 @@ use super::context::{self, Context, Fault};
 use super::error::Problem;
 use super::schema::study_schema;
 use super::sections::{FactorSection, StudyFile};
-use super::synonyms::suggestion_for;
 
 /// Parses the text of `context`.
 pub(super) fn study_file(context: &Context) -> Result<StudyFile, Fault> {
@@ -60,7 +60,7 @@ const TABLES: [(&str, &str); 5] = [
 
 /// Returns the problem of a key that its table does not have: it may belong to another one.
 fn unknown_key(name: &str, valid: &[&str]) -> Problem {
-    if suggestion_for(name, valid).is_none() {
+    if nearest(name, valid.iter().copied()).is_none() {
         let schema = study_schema();
         for (keys, place) in TABLES {
             if schema.pointer(keys).is_some_and(|keys| keys.get(name).is_some()) {

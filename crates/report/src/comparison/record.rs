@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
 
-use crate::output_view::effects;
+use crate::output_view::{effects, reason_in_words};
 use crate::with_unit;
 
 /// Two results compared, as described in `docs/comparison-format.md`.
@@ -277,12 +277,8 @@ fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<Comp
         mean_interval: [a.mean_interval, mean_interval],
         sd: [sd, other_sd],
         factors,
-        reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),
+        reasons: [a, b].map(|output| output.indices.is_none().then(|| reason_in_words(output.reason))),
     })
-}
-
-fn reason(output: &OutputResult) -> String {
-    output.reason.clone().unwrap_or_else(|| "the result has none".to_owned())
 }
 
 fn compared_factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {

@@ -146,14 +146,14 @@ pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart 
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {
         // With the mean of the values, not that of the page, which surrogates may have corrected.
-        let sample = &distribution.sample;
-        let mut chart = histogram_chart(sample, &title, &output_words);
-        if sample.count < distribution.values {
+        let mut chart = histogram_chart(distribution, &title, &output_words);
+        if distribution.count < distribution.values {
             chart.caption.push_str(&format!(" They were kept of all {}.", grouped(distribution.values)));
         }
         return chart;
     }
-    let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
+    let beyond = || "its values are beyond double precision in this unit".to_owned();
+    let reason = output.reason.map_or_else(beyond, |reason| reason.to_string());
     let panel = Panel::new(Axis::new(output_words, ""), Axis::new("probability density", ""));
     Chart::new(title, format!("No distribution of {}: {reason}.", name(&output.name))).panels([panel])
 }

@@ -65,7 +65,8 @@ pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
 
 /// Describes what a run with a target accuracy chose, why, and what it saved.
 fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
-    let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
+    let mut texts: Vec<String> =
+        spending.reasons.iter().map(|reason| format!("{}.", capitalised(&reason.to_string()))).collect();
     let spent = grouped(spending.runs);
     let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
     texts.push(match saved {

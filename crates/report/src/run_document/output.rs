@@ -286,7 +286,7 @@ fn complement(part: Estimate) -> Estimate {
 fn range(output: &OutputResult) -> String {
     let mut texts = vec![format!("Mean {}", tables::mean(output).unwrap_or_else(|| "unknown".to_owned()))];
     texts.extend(tables::sd(output).map(|sd| format!("standard deviation {sd}")));
-    if let Some(sample) = output.distribution.as_ref().map(|distribution| &distribution.sample)
+    if let Some(sample) = &output.distribution
         && let Some(median) = sample.quantile(50.0)
     {
         let (whose, (low, high)) = match sample.central() {

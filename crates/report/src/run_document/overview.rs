@@ -9,7 +9,7 @@ use super::tables::{FACTORS, IN_CSV};
 use crate::document::{Part, Section, Table, largest};
 use crate::format::{name, or_dash, short, value};
 use crate::leading::{leads, of_which};
-use crate::output_view::{OutputView, effect_at};
+use crate::output_view::{OutputView, effect_at, reason_in_words};
 use crate::run_charts::{map_chart, overall_order, together_chart};
 
 /// Maximum numbers of factors and of outputs in the table of outputs.
@@ -92,7 +92,7 @@ pub(super) fn warnings(view: &OutputView<'_>) -> Vec<Part> {
     let places: Vec<usize> = (0..view.outputs.len()).filter(|&place| view.outputs[place].indices.is_none()).collect();
     if let Some(&first) = places.first() {
         let names: Vec<&str> = view.outputs.iter().map(|output| output.name.as_str()).collect();
-        let reason = view.outputs[first].reason.as_deref().unwrap_or("the result has none");
+        let reason = reason_in_words(view.outputs[first].reason);
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", of_which(&names, &places))));
     }
     let mut warnings = grouped_warnings(&view.outputs);

@@ -70,7 +70,11 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
 /// Says why runs of an output failed.
 pub(super) fn failed_runs(output: &OutputResult) -> Option<Part> {
     let failed = output.failures.iter();
-    failures(failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)))
+    failures(
+        failed.map(|f| {
+            (&*f.reason, format!("row {}: {}", f.first_row.unwrap_or_default(), inputs(&f.first_inputs)), f.runs)
+        }),
+    )
 }
 
 /// Returns the warnings, a sentence for each kind in the order of first occurrence: the first warning of a kind, its

@@ -318,12 +318,11 @@ const MIN_TERM_SHARE: f64 = 0.01;
 
 /// Tabulates moments and quantiles of an output's values.
 pub(super) fn moments(output: &OutputResult) -> Option<Part> {
-    let record = output.distribution.as_ref()?;
-    let sample = &record.sample;
+    let sample = output.distribution.as_ref()?;
     let with_unit = |x: f64| minus(&among_with_unit(x, sample.spread(), &output.unit));
     let variation = sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%"));
     let mut rows: Vec<(String, Option<String>)> = [
-        ("values", Some(grouped(record.values))),
+        ("values", Some(grouped(sample.values))),
         ("mean", mean(output)),
         ("standard deviation", sd(output)),
         ("coefficient of variation", variation),
@@ -353,7 +352,7 @@ pub(super) fn mean(output: &OutputResult) -> Option<String> {
 /// Formats the standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. If a
 /// surrogate's interval of the variance is so short that it excludes the value, the root of its variance is used.
 pub(super) fn sd(output: &OutputResult) -> Option<String> {
-    let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
+    let sample = output.distribution.as_ref().and_then(|distribution| distribution.sd);
     let interval = output.variance_interval.and_then(|variance| variance.map(|bound| bound.max(0.0).sqrt()));
     let inside = sample.filter(|sd| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd)));
     let sd = inside.or(output.variance.map(f64::sqrt)).or(sample)?;

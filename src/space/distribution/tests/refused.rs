@@ -66,7 +66,7 @@ fn invalid_settings_are_refused_by_name() {
     let swapped = refused(Distribution::beta(1.0, 1.0, 3.0, 2.0));
     assert_eq!((swapped.key, swapped.help), (Some("min"), None));
     let fixed = refused(Distribution::uniform(3.0, 3.0)).help;
-    assert_eq!(fixed.as_deref(), Some("for a fixed value: distribution = \"constant\", value = 3"));
+    assert_eq!(fixed.as_deref(), Some("for a fixed value, use the constant distribution of 3"));
 }
 
 #[test]

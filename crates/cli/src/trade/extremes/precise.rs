@@ -1,7 +1,7 @@
 //! Evaluation of a formula in 320 bits, and its rounding error in doubles: to find where doubles are wrong.
 
 use apportion::Expression;
-use apportion::model::expression::{OfOne, OfTwo, Stack, Step};
+use apportion::model::expression::Step;
 use astro_float_num::RoundingMode::ToEven;
 use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 
@@ -48,7 +48,7 @@ fn rounding(formula: &Expression, x: &[f64]) -> f64 {
     let inputs: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
     let mut values = [f64::NAN; SAMPLES];
     let mut random = 0x9E37_79B9_7F4A_7C15_u64;
-    formula.program().run_with(&inputs, 0, &mut values, &mut Stack::default(), |step, values| {
+    formula.program().run_with(&inputs, &mut values, |step, values| {
         if !is_rounded(step) {
             return;
         }
@@ -81,8 +81,8 @@ pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Un
 fn is_rounded(step: &Step) -> bool {
     match step {
         Step::Input(_) | Step::Number(_) | Step::Negate | Step::Compare(_) | Step::Select => false,
-        Step::One(OfOne { name, .. }) => !matches!(*name, "abs" | "floor" | "ceil" | "round"),
-        Step::Two(OfTwo { name, .. }) => !matches!(*name, "min" | "max"),
+        Step::One(name, _) => !matches!(*name, "abs" | "floor" | "ceil" | "round"),
+        Step::Two(name, _) => !matches!(*name, "min" | "max"),
         _ => true,
     }
 }
@@ -118,8 +118,8 @@ fn evaluate(step: Step, operands: &[BigFloat], x: &[f64], c: &mut Consts) -> Opt
         (Step::Compare(comparison), [a, b]) => number(f64::from(comparison.is_true_of(a, b))),
         (Step::Select, [condition, ..]) if condition.is_nan() => number(f64::NAN),
         (Step::Select, [condition, then, other]) => (if condition.is_zero() { other } else { then }).clone(),
-        (Step::One(OfOne { name, .. }), [x]) => of_one(name, x, c)?,
-        (Step::Two(OfTwo { name, .. }), [a, b]) => of_two(name, a, b, c)?,
+        (Step::One(name, _), [x]) => of_one(name, x, c)?,
+        (Step::Two(name, _), [a, b]) => of_two(name, a, b, c)?,
         _ => return None,
     })
 }

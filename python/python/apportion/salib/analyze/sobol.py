@@ -55,8 +55,8 @@ def analyze(
     `*_conf` are half widths of intervals, as SALib has them: standard deviations over `num_resamples` resamples of the base points,
     the same as SALib's with the same `seed` above 0, times the quantile of the normal distribution at `conf_level`; NaN of fewer
     than 2. On Sobol' points they are too wide. `keep_resamples` adds S1_conf_all and ST_conf_all, (num_resamples, D).
-    `parallel` and `n_processors` have no effect. What is not finite in `Y` leaves its base point out of the indices that need it and
-    of all intervals, with a warning.
+    `parallel` and `n_processors` have no effect. What is not finite in `Y` leaves its base point out,
+    with a warning.
     A `StudyError` says that the number of outputs is wrong, or that they do not vary.
     """
     num_resamples = whole("num_resamples", num_resamples, 0, _MAX_RESAMPLES)
@@ -64,22 +64,29 @@ def analyze(
     members = list(members_of(problem))
     d = len(members)
     y = numbers(Y, "the outputs are").ravel()
-    first, total, pairs, messages = _engine.salib_indices(y, d, second_order=calc_second_order)
-    for message in messages:
-        warnings.warn(message, stacklevel=2)
-    rows = y.reshape(-1, (2 if calc_second_order else 1) * d + 2)
-    rows = rows[np.isfinite(rows).all(axis=1)]
-    of_first, of_total, of_pairs = _resampled(rows, d, num_resamples, rng)
+    step = (2 if calc_second_order else 1) * d + 2
+    if y.size < 2 * step or y.size % step:
+        raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
+    if unlikely := _engine.unlikely(y):
+        warnings.warn(unlikely, stacklevel=2)
+    rows = y.reshape(-1, step)
+    n, rows = len(rows), rows[np.isfinite(rows).all(axis=1)]
+    if len(rows) < n:
+        warnings.warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out", stacklevel=2)
+    if len(rows) < 2 or np.ptp(rows) == 0:
+        raise _engine.StudyError("no indices: the outputs do not vary")
+    first, total, pairs = (of[0] for of in _indices(rows, d, np.full((1, len(rows)), 1 / len(rows))))
+    of_first, of_total, of_pairs = _indices(rows, d, _drawn(len(rows), num_resamples, rng))
 
     def spread(resamples: np.ndarray) -> np.ndarray:
         return z * resamples.std(axis=0, ddof=1) if num_resamples > 1 else np.full(resamples.shape[1:], np.nan)
 
-    values = {"S1": np.array(first), "S1_conf": spread(of_first), "ST": np.array(total), "ST_conf": spread(of_total)}
+    values = {"S1": first, "S1_conf": spread(of_first), "ST": total, "ST_conf": spread(of_total)}
     if keep_resamples:
         values |= {"S1_conf_all": of_first, "ST_conf_all": of_total}
     if calc_second_order:
         upper = np.triu_indices(d, 1)
-        for key, of in (("S2", np.array(pairs)), ("S2_conf", spread(of_pairs))):
+        for key, of in (("S2", pairs), ("S2_conf", spread(of_pairs))):
             values[key] = np.full((d, d), np.nan)
             values[key][upper] = of
     found = Sensitivities(values, members)
@@ -89,14 +96,15 @@ def analyze(
     return found
 
 
-def _resampled(
-    rows: np.ndarray, d: int, resamples: int, rng: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """First-order, total, (resamples, d), and second-order indices, (resamples, pairs), of base points drawn with replacement: rows
-    that count as often as they were drawn."""
-    n = len(rows)
+def _drawn(n: int, resamples: int, rng: np.random.Generator) -> np.ndarray:
+    """How often each of n base points is drawn with replacement, relative to n, (resamples, n)."""
     drawn = rng.integers(n, size=(n, resamples)).T.copy()
-    counts = np.array([np.bincount(rows_drawn, minlength=n) for rows_drawn in drawn], dtype=float).reshape(resamples, n) / n
+    return np.array([np.bincount(rows_drawn, minlength=n) for rows_drawn in drawn], dtype=float).reshape(resamples, n) / n
+
+
+def _indices(rows: np.ndarray, d: int, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """First-order, total, (resamples, d), and second-order indices, (resamples, pairs), of base points that count as `counts` says,
+    (resamples, n): S1 by Saltelli et al. 2010, ST by Jansen 1999, S2 by Saltelli 2002, of outputs less the mean of all."""
     rows = (rows - rows.mean()) / rows.std()
     a, ab, ba, b = rows[:, :1], rows[:, 1 : d + 1], rows[:, d + 1 : -1], rows[:, -1:]
     both = counts @ np.hstack([(a + b) / 2, (a * a + b * b) / 2])
