@@ -127,7 +127,9 @@ fn a_smallest_region_needs_an_accuracy() {
         let text = "model = \"expression\"\n[outputs]\ny = \"a\"\n[factors]\na = { min = 0, max = 1 }\n";
         parse_study(text, Path::new("formula.toml"), &sets).unwrap_err()
     };
-    for sets in [&["smallest_region=0.1"][..], &["accuracy=0.1", "smallest_region=0"], &["accuracy=0.1", "smallest_region=1"]] {
+    for sets in
+        [&["smallest_region=0.1"][..], &["accuracy=0.1", "smallest_region=0"], &["accuracy=0.1", "smallest_region=1"]]
+    {
         let error = refused(sets);
         assert!(error.to_string().contains("smallest_region"), "{error}");
     }
