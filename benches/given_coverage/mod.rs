@@ -1,4 +1,4 @@
-//! How often the intervals of first-order indices hold: twenty functions, four kinds of inputs, three numbers of rows.
+//! How often the intervals of first-order indices hold: twenty-six functions, four kinds of inputs, three numbers of rows.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -32,6 +32,15 @@ fn root(x: f64) -> f64 {
 }
 fn step(x: f64) -> f64 {
     f64::from(x > 0.7)
+}
+fn rare(x: f64) -> f64 {
+    f64::from(x > 0.9)
+}
+fn half(x: f64) -> f64 {
+    f64::from(x > 0.5)
+}
+fn centre(x: f64) -> f64 {
+    x - 0.5
 }
 fn wave(x: f64) -> f64 {
     (2.0 * PI * x).sin()
@@ -73,6 +82,12 @@ fn functions() -> Vec<(&'static str, Vec<Term>)> {
         ("log a + log b", vec![(1.0, [logarithm, one, one]), (1.0, [one, logarithm, one])]),
         ("log a b + c", vec![(1.0, [logarithm, id, one]), (1.0, [one, one, id])]),
         ("tanh a + 0.2 b", vec![(1.0, [bent, one, one]), (0.2, [one, id, one])]),
+        ("rare a rare b", vec![(1.0, [rare, rare, one])]),
+        ("5 rare a rare b + a + c", vec![(5.0, [rare, rare, one]), (1.0, [id, one, one]), (1.0, [one, one, id])]),
+        ("10 half a + b", vec![(10.0, [half, one, one]), (1.0, [one, id, one])]),
+        ("2 step a + b", vec![(2.0, [step, one, one]), (1.0, [one, id, one])]),
+        ("step a step b step c", vec![(1.0, [step, step, step])]),
+        ("(a - 0.5) (b - 0.5)", vec![(1.0, [centre, centre, one])]),
         ("tanh a tanh b + 0.2 c", vec![(1.0, [bent, bent, one]), (0.2, [one, one, id])]),
     ]
 }
@@ -131,16 +146,16 @@ pub fn table(seeds: u64) -> String {
         ("six values", Distribution::integer(0.0, 5.0)),
     ];
     let mut text =
-        "| inputs | rows | ranks: coverage / half width / error | bins: the same | below 90 %: ranks; bins |\n\
-                    |---|---|---|---|---|\n"
+        "| inputs | rows | ranks: coverage / half width / error | bins: the same | the one shown | below 90 %: ranks; bins; shown |\n\
+                    |---|---|---|---|---|---|\n"
             .to_owned();
     for (kind, law) in laws {
         let law = law.expect("a distribution");
         let cases: Vec<_> = functions().into_iter().map(|(name, terms)| (name, exact(&terms, &law), terms)).collect();
         for rows in ROWS {
-            let (mut all, mut missed): ([Held; 2], [Vec<String>; 2]) = Default::default();
+            let (mut all, mut missed): ([Held; 3], [Vec<String>; 3]) = Default::default();
             for (name, exact, terms) in &cases {
-                let mut own: [Held; 2] = Default::default();
+                let mut own: [Held; 3] = Default::default();
                 for seed in 0..seeds {
                     let mut rng = ChaCha8Rng::seed_from_u64(seed);
                     let mut column =
@@ -159,7 +174,7 @@ pub fn table(seeds: u64) -> String {
                     for (index, exact) in
                         result.outputs[0].indices.iter().flatten().zip(exact).filter(|of| *of.1 > 1e-9)
                     {
-                        let estimates = [index.rank, Some(index.binned.estimate)];
+                        let estimates = [index.rank, Some(index.binned.estimate), Some(index.leading())];
                         for (held, estimate) in own.iter_mut().zip(estimates) {
                             let Some((estimate, interval)) = estimate.and_then(|e| Some((e.estimate, e.interval?)))
                             else {
@@ -182,12 +197,12 @@ pub fn table(seeds: u64) -> String {
                     }
                 }
             }
-            let [ranks, bins] = all.map(|held| {
+            let [ranks, bins, shown] = all.map(|held| {
                 let error = (held.squares / held.count).sqrt();
                 format!("{:.1} % / {:.3} / {error:.3}", 100.0 * held.held / held.count, held.widths / held.count)
             });
-            let [by_ranks, by_bins] = missed.map(|list| if list.is_empty() { "–".to_owned() } else { list.join(", ") });
-            let _ = writeln!(text, "| {kind} | {rows} | {ranks} | {bins} | {by_ranks}; {by_bins} |");
+            let lists = missed.map(|list| if list.is_empty() { "–".to_owned() } else { list.join(", ") }).join("; ");
+            let _ = writeln!(text, "| {kind} | {rows} | {ranks} | {bins} | {shown} | {lists} |");
         }
     }
     text

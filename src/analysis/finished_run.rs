@@ -2,11 +2,11 @@
 
 use serde_json::{Map, Value};
 
-use crate::correction::IndependentOutputs;
-use crate::correction::SurrogateEstimates;
+use crate::correction::{IndependentOutputs, SurrogateEstimates};
 use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::model::Model;
+use crate::result::Warning;
 use crate::run::{RowPosition, Totals};
 use crate::space::Space;
 use crate::study::Study;
@@ -45,6 +45,16 @@ pub(crate) struct LowFidelityTotals<'a> {
     pub own: &'a [Totals],
     /// Every output at its rows.
     pub outputs: &'a [Option<IndependentOutputs>],
+}
+
+impl LowFidelityTotals<'_> {
+    /// Returns why the model is not used for output number `number` of the rows of `design`, if so.
+    pub fn refusal(&self, number: usize, design: &Design) -> Option<Warning> {
+        let independent = self.outputs.get(number)?.as_ref()?;
+        let share = independent.unmet_share(&outputs_kept(self.shared, number), design.runs().len());
+        let name = self.name.to_owned();
+        (share > IndependentOutputs::MAX_UNMET_SHARE).then_some(Warning::UnmetLowFidelity { name, share })
+    }
 }
 
 /// Returns output number `number` of every run of each replicate.

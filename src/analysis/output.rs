@@ -111,6 +111,7 @@ fn output_warnings(
         withdraw(indices, &corrected.rare, &study.effects());
         warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
+        warnings.extend(run.low_fidelity.iter().filter_map(|low| low.refusal(number, run.design)));
         warnings.extend(warnings::of_indices(study, indices));
         warnings::without_consequences(&mut warnings);
     }

@@ -81,7 +81,7 @@ fn surrogates_and_trials(
     let alone = surrogates_together(design, &families, &layout, &all, &longer);
     for (alone, number) in alone.into_iter().zip(numbers) {
         let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
-        for low in low_fidelity {
+        for low in low_fidelity.iter().filter(|low| low.refusal(number, design).is_none()) {
             if let Some(Some(independent)) = low.outputs.get(number) {
                 let shared = first_points(low.shared, number, points);
                 let low = LowFidelityOutputs { name: low.name, shared: shared.iter().collect(), independent };

@@ -10,7 +10,8 @@
 //! - V S_s(h) = alpha^2 V S_s(g) + sum over a within s of (b_a^2 + 2 alpha b_a r_a),
 //!
 //! and similarly for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at
-//! separate points are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid.
+//! separate points are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid, if the
+//! shared rows show how poor it is. They show nothing of values of g beyond theirs ([`IndependentOutputs::unmet_share`]).
 
 use rayon::prelude::*;
 
@@ -30,6 +31,10 @@ use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
 use crate::surrogate::{
     Effects, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,
 };
+
+/// Part of the range of the shared rows by which other values may lie outside it: those of a few hundred draws of a
+/// normal distribution leave 4e-4 of its variance beyond.
+const ROOM: f64 = 0.2;
 
 /// One output of a low-fidelity model.
 #[derive(Clone)]
@@ -57,6 +62,9 @@ enum IndependentNets {
 }
 
 impl IndependentOutputs {
+    /// Maximum [`unmet_share`](Self::unmet_share) of outputs that are used.
+    pub const MAX_UNMET_SHARE: f64 = 0.002;
+
     /// Creates them from every run of `design`; `None` if [`low_fidelity_estimates`] cannot use them.
     pub fn new(design: &Design, families: &[Family], replicates: &[&PointOutputs]) -> Option<Self> {
         if !takes_surrogates(design, replicates.len()) {
@@ -77,6 +85,26 @@ impl IndependentOutputs {
             IndependentNets::Stored(tables)
         };
         Some(Self { design: design.clone(), scale, nets })
+    }
+
+    /// Returns the share of the variance that the outputs owe to values far outside the range of the `shared` ones, at
+    /// every one of `runs` runs of the expensive model: at those rows nothing is known of the difference of the models.
+    pub fn unmet_share(&self, shared: &[&PointOutputs], runs: usize) -> f64 {
+        let shared = ScaledOutput::new(shared, runs, Some(self.scale));
+        let shared = shared.iter().flat_map(|of| &of.nets).flat_map(|net| &net.runs).flatten();
+        let finite = shared.filter(|y| y.is_finite());
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(*y), high.max(*y)));
+        let room = ROOM * (high - low);
+        let nets: Vec<&[Vec<f64>]> = match &self.nets {
+            IndependentNets::Fitted(nets) => nets.iter().map(|(net, _)| &net.outputs[..]).collect(),
+            IndependentNets::Stored(tables) => tables.iter().map(|table| &table.runs[..]).collect(),
+        };
+        let (mut all, mut beyond) = (0.0, 0.0);
+        for y in nets.into_iter().flatten().flatten().filter(|y| y.is_finite()) {
+            all += y * y;
+            beyond += y * y - y.max(low - room).min(high + room).powi(2);
+        }
+        beyond / all
     }
 }
 

@@ -10,6 +10,9 @@ use apportion_base::sum::rescaled;
 /// Minimum number of rows of a bin with a slope.
 const MIN_ROWS_OF_LINE: f64 = 4.0;
 
+/// Variance around the line of a bin, relative to both neighbours, that noise alone seldom has.
+const OUTSTANDING: f64 = 3.0;
+
 /// Relative variation of an input that counts as rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
@@ -40,8 +43,8 @@ pub fn bins_for(rows: usize) -> usize {
 ///
 /// The interval is asymptotic, from the variance over the rows of the influence g^2 + 2 g e - S z^2 (e: the residual, z
 /// = g + e), corrected for the noise in g, with as many degrees of freedom as the effective number of rows, (sum of
-/// squares)^2 over the sum of fourth powers; and it includes the estimate of half as many bins, which shows the error
-/// of the lines. Its coverage: `docs/existing-runs.md` (`cargo bench --bench given`).
+/// squares)^2 over the sum of fourth powers; it includes the estimate of half as many bins, which shows the error
+/// of the lines, and its upper end what a step inside of a bin leaves. Its coverage: `docs/existing-runs.md` (`cargo bench --bench given`).
 ///
 /// A constant input has index 0 without an interval. `order` is that of the input `x`, and `z` are the outputs. Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
 /// interval.
@@ -61,7 +64,7 @@ pub(super) fn of_order(order: &Order, x: &[f64], z: &[f64], independent: bool) -
     let coarser = Lines::new(order.classes(wanted / 2), &x, z).first_order(z);
     let interval = lines.half_width(z, estimate).map(|half_width| {
         let half_width = libm::hypot(half_width, estimate - coarser);
-        Interval::about(estimate, half_width)
+        Interval { low: estimate - half_width, high: estimate + half_width + lines.missed(z) }
     });
     Binned { estimate: Estimate { estimate, interval }, bins }
 }
@@ -134,6 +137,18 @@ impl Lines {
         let noise: f64 = self.bins.iter().map(|bin| bin.parameters * bin.noise()).sum();
         let of_mean = self.bins.iter().map(Bin::noise).sum::<f64>() / self.bins.len() as f64;
         (self.squares - (noise - of_mean)) / z.iter().map(|z| z * z).sum::<f64>()
+    }
+
+    /// Returns the part of the variance around lines that stands out of both neighbours: a step inside of a bin.
+    fn missed(&self, z: &[f64]) -> f64 {
+        let missed = self.bins.iter().enumerate().map(|(number, bin)| {
+            let beside =
+                [number.wrapping_sub(1), number + 1].map(|number| self.bins.get(number).map_or(0.0, Bin::noise));
+            let beside = beside[0].max(beside[1]);
+            let stands_out = bin.parameters > 1.0 && bin.noise() > OUTSTANDING * beside;
+            if stands_out { bin.rest - bin.rows * beside } else { 0.0 }
+        });
+        missed.sum::<f64>() / z.iter().map(|z| z * z).sum::<f64>()
     }
 
     /// Returns the half width of the interval of `estimate`, without the error of the lines.

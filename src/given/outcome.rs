@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::column::{Column, NoVariance};
 use super::order::Order;
 use super::{Binned, binned, centred, rank};
-use crate::uncertainty::Estimate;
+use crate::uncertainty::{Estimate, Interval};
 
 /// The results for one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,9 +30,11 @@ pub struct InputIndices {
 }
 
 impl InputIndices {
-    /// Returns the estimate that reports show first: by ranks if there is one, otherwise by bins.
+    /// Returns the estimate that reports show: of the two, the one with the wider interval.
     pub fn leading(&self) -> Estimate {
-        self.rank.unwrap_or(self.binned.estimate)
+        let binned = self.binned.estimate;
+        let [by_rank, by_bins] = [self.rank, Some(binned)].map(|of| of.and_then(|of| of.interval).map(Interval::width));
+        self.rank.filter(|_| by_rank > by_bins).unwrap_or(binned)
     }
 
     /// Returns whether the two methods disagree by more than both intervals allow, on the facing sides.
@@ -50,13 +52,27 @@ pub(super) fn of_output(
     seed: u64,
 ) -> OutputIndices {
     let indices = centred(&output.values).map(|z| {
-        let inputs = inputs.iter().zip(orders).enumerate().map(|(j, (input, order))| InputIndices {
-            input: input.name.clone(),
-            constant: order.groups() < 2,
-            rank: is_random.then(|| rank::of_order(order, &z, seed, j as u64)),
-            binned: binned::of_order(order, &input.values, &z, is_random),
+        let few = Estimate { estimate: 0.0, interval: Some(Interval::about(0.0, one_over_carrying_rows(&z))) };
+        let inputs = inputs.iter().zip(orders).enumerate().map(|(j, (input, order))| {
+            let Binned { estimate, bins } = binned::of_order(order, &input.values, &z, is_random);
+            let rank = is_random.then(|| rank::of_order(order, &z, seed, j as u64));
+            InputIndices {
+                input: input.name.clone(),
+                constant: order.groups() < 2,
+                rank: rank.map(|rank| Estimate::difference(few, rank)),
+                binned: Binned { estimate: Estimate::difference(few, estimate), bins },
+            }
         });
         inputs.collect()
     });
     OutputIndices { name: output.name.clone(), indices }
 }
+
+/// Returns one over the number of rows that have the variance of the centred outputs `z` if they have equal parts of it:
+/// what further rows of the kind of one of them would change.
+fn one_over_carrying_rows(z: &[f64]) -> f64 {
+    z.iter().map(|z| z.powi(4)).sum::<f64>() / z.iter().map(|z| z * z).sum::<f64>().powi(2)
+}
+
+#[cfg(test)]
+mod tests;

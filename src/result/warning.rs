@@ -97,6 +97,13 @@ pub enum Warning {
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         times: f64,
     },
+    /// A low-fidelity model is not used: values that no shared row has carry this `share` of its variance.
+    #[error(
+        "the cheaper model {name} is not used: {:.1} % of its variance is due to values far outside of those at the rows of the \
+         model, where nothing is known of its error; use more base samples, or mend it there",
+        100.0 * share
+    )]
+    UnmetLowFidelity { name: String, share: f64 },
     /// A level of a factor is rare among the rows.
     #[error("{0}")]
     RareLevel(RareLevel),

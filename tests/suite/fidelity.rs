@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::result::read_result;
+use apportion::result::{Warning, read_result};
 use apportion::run::Store;
 use apportion::{Distribution, Study, Target, function_model};
 
@@ -239,4 +239,31 @@ fn the_physics_gives_the_same_bits_row_by_row() {
         let stored = study.runner().threads(2).store(&store).run().unwrap();
         assert!(stored.outputs == plain.outputs, "{fidelity}");
     }
+}
+
+/// Products of steps, and a cheaper model that is the same but for a spike in a thousandth of the space.
+#[test]
+fn a_cheaper_model_with_a_spike_that_no_shared_row_met_is_not_used() {
+    let product = "(1 + 0.8*floor(3*a))*(1 + 0.5*floor(3*b))";
+    let text = format!(
+        "model = \"expression\"\n[outputs]\ny = \"{product}\"\n[factors]\na = {{ min = 0, max = 1 }}\nb = {{ min = 0, max = 1 }}\n\
+         [fidelity]\nlow = [{{ name = \"low\", outputs = {{ y = \"{product} + 20*(a > 0.97)*(b > 0.97)\" }} }}]\n\
+         base_samples = 4096\n[design]\nbase_samples = 32\n"
+    );
+    // V_i = (2/3) c^2/(1 + c)^2.
+    let [a, b] = [0.8, 0.5].map(|c: f64| (2.0 / 3.0) * c * c / (1.0 + c).powi(2));
+    let variance = (1.0 + a) * (1.0 + b) - 1.0;
+    let (mut refused, mut held) = (0, 0);
+    for seed in 0..12 {
+        let output = study(&text, &[&format!("design.seed={seed}")]).run().unwrap().outputs.remove(0);
+        let unmet = output.warnings.iter().filter(|warning| matches!(warning, Warning::UnmetLowFidelity { .. }));
+        let low = output.surrogate.as_ref().and_then(|used| used.low.as_ref());
+        assert!(unmet.clone().count() == 0 || low.is_none(), "{:?}", output.warnings);
+        refused += unmet.count();
+        for (factor, exact) in effects(&output).iter().zip([a / variance, b / variance]) {
+            let interval = factor.first_order.interval.unwrap();
+            held += usize::from(interval.low <= exact && exact <= interval.high);
+        }
+    }
+    assert!(refused >= 8 && held >= 22, "{refused} refused, {held} of 24 held");
 }

@@ -22,7 +22,7 @@ _OUTPUTS = 4
 # Columns of text, whatever their content.
 _TEXTS = ("output", "factor", "input", "unit", "output_unit", "failure")
 # What is shown of screenings and of given data, by the columns of their tables.
-_SHOWN = {"mu_star": "mu*", "sigma": "sigma", "rank": "first-order", "surrogate_total": "total"}
+_SHOWN = {"mu_star": "mu*", "sigma": "sigma", "first_order": "first-order", "surrogate_total": "total"}
 
 
 class Document(Shown):

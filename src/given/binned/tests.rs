@@ -34,3 +34,19 @@ fn the_number_of_bins_follows_its_rule() {
         assert_eq!(bins_for(rows), bins);
     }
 }
+
+/// y = 2 (a > 0.7) + noise: S = 0.84 / (0.84 + 1/12), of which a line in the bin of the step misses up to a tenth of a bin.
+#[test]
+fn a_step_inside_of_a_bin_is_in_the_interval() {
+    for shift in 0..20 {
+        let edge = 0.65 + 0.005 * f64::from(shift);
+        let x: Vec<f64> = (0..1000).map(|k| (f64::from(k) + 0.5) / 1000.0).collect();
+        let y: Vec<f64> = (0..1000)
+            .map(|k| 2.0 * f64::from(u8::from(x[k as usize] > edge)) + f64::from(k * 371 % 1000) / 1000.0)
+            .collect();
+        let variance = 4.0 * edge * (1.0 - edge);
+        let (exact, estimated) = (variance / (variance + 1.0 / 12.0), binned_first_order(&x, &y).estimate);
+        let interval = estimated.interval.unwrap();
+        assert!(interval.low < exact && exact < interval.high && interval.width() < 0.08, "{estimated:?} {exact}");
+    }
+}

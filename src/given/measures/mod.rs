@@ -115,9 +115,13 @@ impl InputMeasures {
 const RESAMPLES: usize = 100;
 
 /// Relative width of the narrower kernels, which reveal what wider ones in half as many classes miss.
-const NARROWER: f64 = 0.5;
-/// Remaining error of the narrower kernels relative to the difference: 1 if errors are proportional to the width.
-const LEFT: f64 = 1.0;
+const NARROWER: f64 = 0.25;
+/// Remaining error of the narrower kernels relative to the difference: errors are proportional to the width.
+const LEFT: f64 = 1.0 / 3.0;
+/// Error of that correction relative to the difference.
+const ERROR_OF_CORRECTION: f64 = 2.0;
+/// Relative difference, if it is no chance, above which no width of kernels shows how large delta is.
+const MAX_DIFFERENCE: f64 = 0.5;
 
 /// Number of permutations for narrower kernels: only their mean is needed.
 const FINER_PERMUTATIONS: usize = 40;
@@ -354,20 +358,23 @@ impl<'a> Job<'a> {
     }
 
     /// Corrects delta, where `plain` is the estimate with all of its noise. For an input without influence it is d_0,
-    /// the mean over permutations; the corrected d is sqrt((d^2 - d_0^2)/(1 - d_0^2)), because a deterministic output
-    /// has no noise. The interval is that of resamples of the rows; its upper end includes the estimate by narrower
-    /// kernels in finer classes with their remaining error, and is at least that of `plain`.
+    /// the mean over permutations; without it d is sqrt((d^2 - d_0^2)/(1 - d_0^2)), because a deterministic output
+    /// has no noise. To this is added what narrower kernels in finer classes find and what they still miss. The interval is
+    /// that of resamples of the rows; its upper end includes the error of the correction, or is 1.
     fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
         let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
         let noise = noise / chance.measures.len() as f64;
-        let estimate = without_noise(plain, noise);
+        let wide = without_noise(plain, noise);
         let around = self.half_width(&classes.delta, 1.0, input);
-        let finer = self.plain_delta(&classes.finer_delta, NARROWER);
-        let finer_high = finer + self.half_width(&classes.finer_delta, NARROWER, input);
-        let left = LEFT * (without_noise(finer, chance.finer_delta) - estimate);
-        let high = without_noise(plain + around, noise).max(without_noise(finer_high, chance.finer_delta) + left);
+        let narrow = self.plain_delta(&classes.finer_delta, NARROWER);
+        let around_narrow = self.half_width(&classes.finer_delta, NARROWER, input);
+        let [missed, missed_at_most] =
+            [narrow, narrow + around_narrow].map(|narrow| (without_noise(narrow, chance.finer_delta) - wide).max(0.0));
+        let estimate = (wide + (1.0 + LEFT) * missed).min(1.0);
+        let is_open = missed > (MAX_DIFFERENCE * wide).max(2.0 * around_narrow);
+        let error = if is_open { 1.0 } else { libm::hypot(around_narrow, ERROR_OF_CORRECTION * missed) };
         // If an input has an effect, chance adds less than if none has. No delta is above 1.
-        let high = high.max(plain + around).clamp(estimate, 1.0);
+        let high = (estimate + error).max(wide + (1.0 + LEFT) * missed_at_most).max(plain + around).min(1.0);
         Estimate { estimate, interval: Some(Interval { low: without_noise(plain - around, noise), high }) }
     }
 

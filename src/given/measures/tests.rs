@@ -68,9 +68,8 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
     for (value, exact) in measures.iter().zip([0.505_497_139, 0.160_393_820]) {
         let delta = value.get(Measure::Delta).unwrap().estimate;
         let interval = delta.interval.unwrap();
-        // Nineteen classes resolve the input only to the width of a class.
-        assert!((-0.03..0.01).contains(&(delta.estimate - exact)), "{delta:?} {exact}");
-        assert!(interval.high - interval.low < 0.06 && interval.low < interval.high);
+        assert!((delta.estimate - exact).abs() < 0.01, "{delta:?} {exact}");
+        assert!(interval.high - interval.low < 0.09 && interval.low < exact && exact < interval.high);
     }
 }
 
@@ -97,7 +96,8 @@ fn delta_does_not_change_when_the_output_is_bent_and_holds_what_wide_kernels_do_
     // By histograms of 10^6 points for each of 100 values of an input.
     for (value, exact) in plain.iter().zip([0.265, 0.425, 0.21]) {
         let interval = value.interval.unwrap();
-        assert!(interval.low < exact && exact < interval.high && interval.high < exact + 0.1, "{value:?} {exact}");
+        assert!((value.estimate - exact).abs() < 0.05, "{value:?} {exact}");
+        assert!(interval.low < exact && exact < interval.high && interval.high < exact + 0.2, "{value:?} {exact}");
     }
 }
 
@@ -221,5 +221,30 @@ fn the_spectrum_does_not_depend_on_the_order_of_rows() {
     for (plain, turned) in plain.iter().zip(&turned) {
         let [plain, turned] = [plain, turned].map(|of| of.get(Measure::Fourier).unwrap().estimate.estimate);
         assert!((plain - turned).abs() < 1e-12, "{plain} {turned}");
+    }
+}
+
+/// Two modes, a centred product (the density of w = |2a - 1| |2b - 1| is -ln w, and 1/v below v = |2a - 1| where that is
+/// known), and discrete inputs with gaps between the values of their product.
+#[test]
+fn the_interval_of_delta_contains_what_kernels_miss() {
+    type Case = (&'static str, fn(&[f64]) -> f64, [f64; 3]);
+    let cases: [Case; 4] = [
+        ("two modes", |x| if x[0] > 0.5 { 10.0 + x[1] } else { x[1] }, [0.5, 1.0, 0.0]),
+        ("unequal modes", |x| if x[0] > 0.7 { 2.0 + x[1] } else { x[1] }, [0.42, 1.0, 0.0]),
+        ("a centred product", |x| (x[0] - 0.5) * (x[1] - 0.5), [0.3985, 0.3985, 0.0]),
+        ("discrete", |x| (5.0 * x[0]).floor() * (3.0 * x[1]).floor() + 0.5 * x[2], [0.48, 4.0 / 9.0, 1.0]),
+    ];
+    for (name, of, exact) in cases {
+        let mut held = [0; 3];
+        for table in 0..8 {
+            let inputs = uniform(400, 3, 31 * table + 5);
+            let measures = measured(&inputs, output(&inputs, of), 1);
+            for ((held, value), exact) in held.iter_mut().zip(&measures).zip(exact) {
+                let interval = value.get(Measure::Delta).unwrap().estimate.interval.unwrap();
+                *held += usize::from(interval.low <= exact && exact <= interval.high);
+            }
+        }
+        assert!(held.iter().all(|held| *held >= 7), "{name}: {held:?} of 8");
     }
 }

@@ -33,6 +33,7 @@ fn examples() -> Vec<Warning> {
         Warning::DoubtedSurrogate,
         Warning::ContradictedSurrogate { times: 2.5 },
         Warning::InflatedSurrogate { times: 30.0 },
+        Warning::UnmetLowFidelity { name: text("coarse"), share: 0.12 },
         Warning::RareLevel(level),
         Warning::PoorSurrogate { explained: 0.4 },
         Warning::DependentSteps { factors: vec![text("pumps"), text("valves")] },

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use apportion::given::InputIndices;
 use apportion::result::{OutputDistribution, json};
 use apportion::uncertainty::Estimate;
 use apportion_base::text::listed;
@@ -84,6 +85,11 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
             .served()
             .map(|of| Part::Text(sentences::of_surrogate(of.explained, of.unknown, of.terms, &of.polynomials_of))),
     );
+    let by_ranks = output.indices.as_deref().filter(|indices| indices.iter().any(|index| index.rank.is_some()));
+    parts.extend(by_ranks.map(|indices| Part::Details {
+        summary: "First-order indices by estimator".to_owned(),
+        parts: vec![by_estimator(indices).into()],
+    }));
     parts
 }
 
@@ -111,8 +117,6 @@ fn or_empty(estimate: Option<Estimate>) -> String {
 }
 
 fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
-    let mut indices = result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
-    let ranks = indices.any(|index| index.rank.is_some());
     let served = output.served();
     let first_order =
         "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
@@ -124,37 +128,41 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         }
         None => first_order.to_owned(),
     };
-    // The sum is that of the leading estimates, by ranks if there are any.
-    let sum = output.sum_first_order.map_or_else(String::new, three);
-    let (sum_by_ranks, sum_by_bins) = if ranks { (sum, String::new()) } else { (String::new(), sum) };
     let indices = output.indices.iter().flatten().enumerate();
-    let rows = indices.map(|(number, index)| (index, served.map(|of| &of.indices[number])));
+    let rows = indices.map(|(number, index)| (index, output.first_order(number), served.map(|of| &of.indices[number])));
+    let sum = served.map_or(output.sum_first_order, |of| Some(of.sum_first_order));
     let rows = Table::from_rows(caption, rows)
         .file("output", |_| &output.name)
-        .text("input", |(index, _)| &index.input)
+        .text("input", |(index, ..)| &index.input)
         .named("input")
         .sum("sum")
-        .number("S_1, by ranks", |(index, _)| or_empty(index.rank))
-        .estimate("rank", |(index, _)| index.rank)
-        .shown(ranks)
-        .sum(sum_by_ranks)
-        .number("S_1, by bins", |(index, _)| self::index(index.binned.estimate))
-        .estimate("binned", |(index, _)| Some(index.binned.estimate))
-        .sum(sum_by_bins)
-        .file("bins", |(index, _)| index.binned.bins as u64);
+        .number("S_1", |(_, shown, _)| or_empty(shown))
+        .estimate("first_order", |(_, shown, _)| shown)
+        .sum(sum.map_or_else(String::new, three))
+        .file_estimate("rank", |(index, ..)| index.rank)
+        .file_estimate("binned", |(index, ..)| Some(index.binned.estimate))
+        .file("bins", |(index, ..)| index.binned.bins as u64);
     if result.surrogate.is_none() {
         return rows.into();
     }
     let serves = result.outputs.iter().any(|output| output.served().is_some());
-    rows.number("S_1, by surrogate", |(_, of)| or_empty(of.map(|index| index.first_order)))
-        .estimate("surrogate", |(_, of)| of.map(|index| index.first_order))
-        .shown(serves)
-        .sum(served.map_or_else(String::new, |of| three(of.sum_first_order)))
-        .number("S_T, by surrogate", |(_, of)| or_empty(of.map(|index| index.total)))
-        .estimate("surrogate_total", |(_, of)| of.map(|index| index.total))
+    rows.file_estimate("surrogate", |(.., of)| of.map(|index| index.first_order))
+        .number("S_T", |(.., of)| or_empty(of.map(|index| index.total)))
+        .estimate("surrogate_total", |(.., of)| of.map(|index| index.total))
         .shown(serves)
         .sum("")
         .file("surrogate_unknown", |_| served.map(|of| of.unknown))
+        .into()
+}
+
+/// Tabulates the two estimates that need no surrogate.
+fn by_estimator(indices: &[InputIndices]) -> Table {
+    let caption =
+        "The estimates by ranks and by bins; the one with the wider interval is shown above unless a surrogate serves.";
+    Table::from_rows(caption, indices)
+        .text("input", |index| &index.input)
+        .number("S_1, by ranks", |index| or_empty(index.rank))
+        .number("S_1, by bins", |index| self::index(index.binned.estimate))
         .into()
 }
 
@@ -177,23 +185,16 @@ fn table_parts(result: &GivenFile) -> Vec<Part> {
     vec![Part::Text(text), Part::OnPage(vec![inputs.into()])]
 }
 
-/// Draws the indices of one output as parts of its variance, one bar per input and method, with their intervals; the
+/// Draws the indices of one output as parts of its variance, one bar per input and kind, with their intervals; the
 /// input of the largest index on top, of the largest total index if there are any.
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
-    let ranks: Vec<_> = indices.iter().map(|index| index.rank).collect();
-    let bins: Vec<_> = indices.iter().map(|index| Some(index.binned.estimate)).collect();
     let served = output.served().map(|of| &of.indices);
-    let by_surrogate: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].first_order)).collect();
+    let first_order: Vec<_> = (0..indices.len()).map(|k| output.first_order(k)).collect();
     let total: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].total)).collect();
-    let leading = (0..indices.len()).map(|k| total[k].or(ranks[k]).or(bins[k]));
+    let leading = (0..indices.len()).map(|k| total[k].or(first_order[k]));
     let keys: Vec<f64> = leading.map(|index| index.map_or(f64::NAN, |index| index.estimate)).collect();
-    let series = [
-        (Series::new("by ranks", Colour::Series(1)), ranks),
-        (Series::new("by bins", Colour::Series(5)), bins),
-        (Series::new("by surrogate", Colour::Series(2)), by_surrogate),
-        (Series::new("total, by surrogate", Colour::Series(3)), total),
-    ];
+    let series = [(Series::new("S_1", Colour::Series(1)), first_order), (Series::new("S_T", Colour::Series(3)), total)];
     let used = series.into_iter().filter(|(_, values)| values.iter().any(Option::is_some));
     let inputs: Vec<String> = indices.iter().map(|index| index.input.clone()).collect();
     let beyond = not_drawn(inputs.len(), MAX_BARS);
@@ -209,8 +210,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
     let mut contenders = Vec::new();
     for (number, index) in output.indices.iter().flatten().enumerate() {
-        let by_surrogate = output.served().map(|of| of.indices[number].first_order);
-        contenders.push(Contender::new(&index.input, by_surrogate.unwrap_or(index.leading())));
+        contenders.extend(output.first_order(number).map(|shown| Contender::new(&index.input, shown)));
     }
     match (leader(&contenders, &format!("For {}", output.name), "first-order index S_1", ""), &output.reason) {
         (Some(sentence), _) => format!("{sentence} From {} given rows.", result.table.rows),

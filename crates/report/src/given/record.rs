@@ -5,6 +5,7 @@ use apportion::given::{
     SurrogateRefusal, Surrogates, TextColumn,
 };
 use apportion::result::OutputDistribution;
+use apportion::uncertainty::Estimate;
 use apportion_base::quantity::{Unit, Unlikely};
 use serde::{Deserialize, Serialize};
 
@@ -99,7 +100,7 @@ pub struct GivenOutputRecord {
     pub distribution: Option<OutputDistribution>,
     /// One entry per input; `null` if there are no indices.
     pub indices: Option<Vec<InputIndices>>,
-    /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
+    /// Sum over the inputs of the estimates by ranks or bins, those with the wider intervals.
     pub sum_first_order: Option<f64>,
     /// Indices by surrogates; `null` if they were not requested, or there are none.
     pub surrogate: Option<SurrogateOutput>,
@@ -115,6 +116,12 @@ impl GivenOutputRecord {
     /// Returns the indices by surrogates that are valid.
     pub(super) fn served(&self) -> Option<&SurrogateOutput> {
         self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
+    }
+
+    /// Returns the first-order index of an input that is shown: the surrogate's if it serves.
+    pub(super) fn first_order(&self, number: usize) -> Option<Estimate> {
+        let by_surrogate = self.served().map(|of| of.indices[number].first_order);
+        by_surrogate.or_else(|| Some(self.indices.as_ref()?[number].leading()))
     }
 }
 

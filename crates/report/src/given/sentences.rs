@@ -62,10 +62,6 @@ pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
     .to_vec()
 }
 
-/// Minimum number of rows for bins: fewer make them too wide for a function of a few periods. At 100 rows the 95 %
-/// intervals by bins covered the exact value in 89 % of the cases for the Ishigami function, at 300 in 94 %.
-const MIN_ROWS_FOR_BINS: usize = 300;
-
 /// Returns the warnings on the table.
 pub(super) fn warnings(
     indices: &GivenIndices,
@@ -99,12 +95,6 @@ pub(super) fn warnings(
             "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins are valid"
         ));
     }
-    if indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
-        warnings.push(format!(
-            "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins ignore dependence finer than a bin, and may be too \
-             narrow; those by ranks are safer"
-        ));
-    }
     if let Some(dependence) = &indices.dependence {
         let (a, b) = &dependence.strongest.inputs;
         let meaning = "first-order indices then contain effects of both";
@@ -125,7 +115,7 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
     if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves) {
         warnings.push(format!(
             "the surrogate is not used: it explains only {} of the variance of rows that it was not fitted to, and {} are \
-             needed. Read the first-order indices by ranks and bins; there are no total indices",
+             needed. The first-order indices are those by ranks or bins; there are no total indices",
             percent(surrogate.explained.max(0.0)),
             percent(SurrogateOutput::MIN_EXPLAINED)
         ));
