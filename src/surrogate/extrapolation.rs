@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::basis::Term;
-use super::family::{Family, polynomials};
+use super::family::{Family, polynomials, upper_polynomials};
 use super::fit::Expansion;
 use super::terms::{Effects, is_interaction, touches, within};
 
@@ -31,6 +31,9 @@ const KNOT_SIDE: f64 = 1e-9;
 /// Measured on sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
+/// A function that returns the polynomials of a family at a distance in the quantile from one of its ends.
+type Polynomials = fn(&Family, &[f64], usize) -> Vec<Vec<f64>>;
+
 /// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
 struct Tail {
     /// Probabilities of the nodes.
@@ -44,35 +47,21 @@ struct Tail {
 impl Tail {
     /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
-        match family.smooth() {
-            Family::Hermite | Family::Orthogonal(_) => {
-                [false, true].map(|upper| Self::new(family, mass, degree, upper)).into()
-            }
-            Family::Legendre | Family::Column(_) | Family::Knotted(_) => Vec::new(),
+        let has_tails = matches!(family.own(), Family::Hermite | Family::Orthogonal(_)) && family.own().degree() > 0;
+        // A line does not depart from itself.
+        if !has_tails || (degree < 2 && family.own() == family) {
+            return Vec::new();
         }
+        [polynomials, upper_polynomials].map(|polynomials| Self::new(family, mass, degree, polynomials)).into()
     }
 
-    /// Returns the lower or the upper one of them.
-    fn new(family: &Family, mass: f64, mut degree: usize, is_upper: bool) -> Self {
+    /// Returns the lower or the upper one of them, given the function that returns its polynomials.
+    fn new(family: &Family, mass: f64, degree: usize, polynomials: Polynomials) -> Self {
         let nodes: Vec<f64> = (0..PANELS).map(|k| mass * libm::exp(-(STEP * (k as f64 + 0.5)))).collect();
         let weights = nodes.iter().map(|u| u * STEP).collect();
-        let mut points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
-        if let Family::Knotted(knotted) = family {
-            degree = knotted.degree();
-        }
-        // Hermite polynomials are even or odd, and 1 - u has no digits far out.
-        let is_mirrored = is_upper && *family.smooth() == Family::Hermite;
-        if is_upper && !is_mirrored {
-            points.iter_mut().for_each(|u| *u = 1.0 - *u);
-        }
-        let mut values = polynomials(family.smooth(), &points, degree);
-        if is_mirrored {
-            values.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
-        }
-        let x = values.first().cloned().unwrap_or_default();
-        if let Family::Knotted(knotted) = family {
-            values = knotted.columns(values, degree);
-        }
+        let points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
+        let mut values = polynomials(family, &points, degree);
+        let x = polynomials(family.own(), &points, 1).swap_remove(0);
         let tangents = values.iter().map(|of| tangent(&x, of)).collect();
         values.iter_mut().for_each(|of| of.truncate(PANELS));
         Self { weights, values, tangents }
@@ -162,7 +151,7 @@ impl ExtrapolationError {
         let groups: Vec<BTreeMap<(usize, Term), Group>> = expansions.iter().map(groups).collect();
         for (factor, family) in families.iter().enumerate() {
             let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
-            let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            let tails = if degree > 0 { Tail::both(family, mass, degree) } else { Vec::new() };
             let knots = Tail::knots(family);
             if tails.is_empty() && knots.is_empty() {
                 continue;
