@@ -2,9 +2,10 @@
 //!
 //! The indices of an expansion are computed exactly, which includes regions where no run shows whether it is right. A
 //! polynomial of high degree in an unbounded variable has most of its variance there. Its departure in the tails from
-//! the tangents at their edges is therefore counted as a part of the error of every number to which it contributes;
-//! less of it if the expansion fits well or its degree is low, since a function close to a polynomial of low degree
-//! continues like one.
+//! the tangents at their edges, straight in the values of the factor, is therefore counted as a part of the error of
+//! every number to which it contributes; less of it if the expansion fits well or its degree is low, since a function
+//! close to a polynomial of low degree continues like one. The rise of the tangents counts too, in proportion to the
+//! residual: where a tail is heavy, it is most of the variance of a straight line.
 //!
 //! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a knot from
 //! one another counts as if the step were uniform over the width of the knot, of standard deviation width/sqrt(12).
@@ -40,7 +41,7 @@ struct Tail {
     weights: Vec<f64>,
     /// The polynomials of degree 1, 2, ... at the nodes.
     values: Vec<Vec<f64>>,
-    /// Their tangents at the edge, at the nodes.
+    /// Their tangents at the edge, at the nodes and, of a tail, at the edge itself.
     tangents: Vec<Vec<f64>>,
 }
 
@@ -48,8 +49,7 @@ impl Tail {
     /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
         let has_tails = matches!(family.own(), Family::Hermite | Family::Orthogonal(_)) && family.own().degree() > 0;
-        // A line does not depart from itself.
-        if !has_tails || (degree < 2 && family.own() == family) {
+        if !has_tails {
             return Vec::new();
         }
         [polynomials, upper_polynomials].map(|polynomials| Self::new(family, mass, degree, polynomials)).into()
@@ -83,20 +83,29 @@ impl Tail {
         let mut departure = Departure::default();
         for (node, weight) in self.weights.iter().enumerate() {
             let (p, q) = (group.value(&self.values, node), group.value(&self.tangents, node));
-            departure.mean += weight * (p - q).abs();
-            departure.square += weight * (p * p - q * q).abs();
+            departure.add(*weight, p, q);
+        }
+        departure
+    }
+
+    /// Computes the departure of the tangent from its value at the edge.
+    fn rise(&self, group: &Group) -> Departure {
+        let mut departure = Departure::default();
+        let edge = group.value(&self.tangents, PANELS);
+        for (node, weight) in self.weights.iter().enumerate() {
+            departure.add(*weight, group.value(&self.tangents, node), edge);
         }
         departure
     }
 }
 
-/// Returns the tangent at the edge of a polynomial with the values `of`, at the nodes; `x` is that of degree 1.
+/// Returns the tangent at the edge of a polynomial with the values `of`, at the nodes and at the edge; `x` is that of degree 1.
 fn tangent(x: &[f64], of: &[f64]) -> Vec<f64> {
     let [edge, near] = [PANELS, PANELS + 1];
     let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
     // The slope is undefined between two levels of a discrete distribution.
     let slope = if slope.is_finite() { slope } else { 0.0 };
-    x[..PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
+    x[..=PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
 }
 
 /// The departure of a polynomial from its tangents: the mean of the absolute differences, and of those of the squares.
@@ -107,11 +116,16 @@ struct Departure {
 }
 
 impl Departure {
+    /// Adds that of `p` from `q` at a node.
+    fn add(&mut self, weight: f64, p: f64, q: f64) {
+        self.mean += weight * (p - q).abs();
+        self.square += weight * (p * p - q * q).abs();
+    }
+
     /// Computes the sum over some tails.
-    fn sum(tails: &[Tail], group: &Group) -> Self {
+    fn sum(tails: &[Tail], of: impl Fn(&Tail) -> Self) -> Self {
         let mut sum = Self::default();
-        for tail in tails {
-            let Self { mean, square } = tail.departure(group);
+        for Self { mean, square } in tails.iter().map(of) {
             sum.mean += mean;
             sum.square += square;
         }
@@ -146,7 +160,7 @@ impl ExtrapolationError {
             pairs: vec![0.0; effects.pairs.len()],
         };
         let mass = 1.0 / points.max(2) as f64;
-        let rest = rest.max(0.0).sqrt();
+        let rest = rest.clamp(0.0, 1.0).sqrt();
         let share = 1.0 / expansions.len() as f64;
         let groups: Vec<BTreeMap<(usize, Term), Group>> = expansions.iter().map(groups).collect();
         for (factor, family) in families.iter().enumerate() {
@@ -161,21 +175,34 @@ impl ExtrapolationError {
                 let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
                 // A close fit determines tails, and no knots.
                 let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                let (tail, knot) = (Departure::sum(&tails, group), Departure::sum(&knots, group));
+                let [tail, knot] = [&tails, &knots].map(|of| Departure::sum(of, |tail| tail.departure(group)));
+                let rise = Departure::sum(&tails, |tail| tail.rise(group));
+                let mean = weight * tail.mean + share * (knot.mean + rest * rise.mean);
                 if others.is_empty() {
-                    all.mean += weight * tail.mean + share * knot.mean;
+                    all.mean += mean;
+                } else {
+                    // The mean over the factor is the coefficient of the others.
+                    all.add_to_parts(others, 2.0 * group.offset.abs() * mean, effects);
                 }
-                all.add(&with(others, factor), weight * tail.square + share * knot.square, effects);
+                let square = weight * tail.square + share * (knot.square + rest * rise.square);
+                all.add(&with(others, factor), square, effects);
             }
         }
         all
     }
 
-    fn add(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
+    fn add(&mut self, term: &[(usize, usize)], error: f64, effects: &Effects) {
         self.variance += error;
-        for (number, swap) in swaps.iter().enumerate() {
-            self.first_order[number] += if within(term, swap) { error } else { 0.0 };
-            self.total[number] += if touches(term, swap) { error } else { 0.0 };
+        for (total, swap) in self.total.iter_mut().zip(&effects.swaps) {
+            *total += if touches(term, swap) { error } else { 0.0 };
+        }
+        self.add_to_parts(term, error, effects);
+    }
+
+    /// Adds an error to the effects of which `term` is the whole or a part, except the total ones.
+    fn add_to_parts(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
+        for (first_order, swap) in self.first_order.iter_mut().zip(swaps) {
+            *first_order += if within(term, swap) { error } else { 0.0 };
         }
         for (of_pair, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
             *of_pair += if is_interaction(term, &swaps[j], &swaps[k]) { error } else { 0.0 };

@@ -40,8 +40,12 @@ impl<'a> IdentifiableTerms<'a> {
                 Family::Orthogonal(polynomials) if polynomials.has_levels() => {
                     spreads.iter().map(|net| identifiable_degrees(net)).min().unwrap_or(0)
                 }
-                // The behaviour of polynomials of high degree in thin tails is a part of their error.
-                Family::Orthogonal(_) if identifiable_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
+                // What no row of a tail shows is a part of the error of polynomials without bounds, and of high degree.
+                Family::Orthogonal(polynomials)
+                    if !polynomials.is_unbounded() && identifiable_degrees(&[mean_of_first(&spreads)]) == 0 =>
+                {
+                    0
+                }
                 _ => usize::MAX,
             });
         }

@@ -51,7 +51,10 @@ impl Knotted {
         coefficients: &[(usize, f64)],
     ) -> Vec<Knot> {
         let knots = self.knots.iter().enumerate().map(|(place, knot)| match knot.is_step {
-            true => placed_step(*knot, nets, moved, factor),
+            true => {
+                let reach = MAX_MOVED * knot.width;
+                placed_step(*knot, &shown(knot.u - reach..knot.u + reach, nets, moved, factor))
+            }
             false => self.placed_kink(place, coefficients),
         });
         knots.collect()
@@ -89,11 +92,10 @@ struct Shown {
     noise: f64,
 }
 
-/// Places a step in the middle between the last row and the next one that shows it, where the sum of squared residuals
-/// is least; their distance is the new width.
-fn placed_step(knot: Knot, nets: &[Net], moved: &MovedValues, factor: usize) -> Knot {
+/// Places a step in the middle between the last of `rows` and the next one that shows it, where the sum of squared
+/// residuals is least; their distance is the new width.
+fn placed_step(knot: Knot, rows: &[Shown]) -> Knot {
     let reach = MAX_MOVED * knot.width;
-    let rows = shown(knot.u - reach..knot.u + reach, nets, moved, factor);
     let [mut steps, mut squares, mut noise] = [0.0; 3];
     // At every place the sum of the rows before it.
     let mut sums = vec![0.0];
