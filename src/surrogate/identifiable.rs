@@ -41,11 +41,8 @@ impl<'a> IdentifiableTerms<'a> {
                     spreads.iter().map(|net| identifiable_degrees(net)).min().unwrap_or(0)
                 }
                 // What no row of a tail shows is a part of the error of polynomials without bounds, and of high degree.
-                Family::Orthogonal(polynomials)
-                    if !polynomials.is_unbounded() && identifiable_degrees(&[mean_of_first(&spreads)]) == 0 =>
-                {
-                    0
-                }
+                _ if family.is_unbounded() => usize::MAX,
+                Family::Orthogonal(_) if identifiable_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
                 _ => usize::MAX,
             });
         }
