@@ -29,7 +29,7 @@ use crate::surrogate::fit::values_and_rest;
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
 use crate::surrogate::{
-    Effects, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,
+    Effects, MAX_FITTED_ROWS, SAFE_UNBOUNDED_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,
 };
 
 /// Part of the range of the shared rows by which other values may lie outside it: those of a few hundred draws of a
@@ -71,7 +71,7 @@ impl IndependentOutputs {
             return None;
         }
         let ScaledOutput { nets: tables, scale } = ScaledOutput::new(replicates, design.runs().len(), None)?;
-        let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
+        let caps = Caps::new(families, SAFE_UNBOUNDED_DEGREES);
         let mut nets: Vec<Net> = Vec::new();
         if design.rows() <= MAX_FITTED_ROWS {
             let tables = tables.par_iter().enumerate();
@@ -142,7 +142,7 @@ pub(crate) fn low_fidelity_estimates(
     let mut f = ScaledOutput::new(replicates, runs, None)?;
     let g = ScaledOutput::new(&low.shared, runs, Some(low.independent.scale))?;
     leave_out_points_that_failed(&mut f.nets, &g.nets);
-    let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
+    let caps = Caps::new(families, SAFE_UNBOUNDED_DEGREES);
     let numbers = (0..f.nets.len()).into_par_iter();
     let nets = numbers.map(|k| {
         let expensive = net(design, k, families, caps.degree, &f.nets[k]);

@@ -20,7 +20,7 @@ use crate::surrogate::knots::{MAX_MOVED, MovedValues, knots};
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, ScaledOutput};
 use crate::surrogate::{
-    ChosenTerms, Effects, Knot, MAX_HERMITE_DEGREES, Trial, fewest_points, fitted_design, fitted_to_others,
+    ChosenTerms, Effects, Knot, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_design, fitted_to_others,
     takes_surrogates, trials,
 };
 
@@ -162,8 +162,8 @@ impl Together<'_> {
 
     /// Fits one trial to all outputs, in the terms `chosen` for each net, if there are any.
     fn fit(&self, kind: usize, trial: Trial, chosen: Option<&[Vec<Term>]>) -> Fit {
-        let Trial { families, hermite_degree, ratio } = trial;
-        let caps = Caps::new(&families, hermite_degree);
+        let Trial { families, unbounded_degree, ratio } = trial;
+        let caps = Caps::new(&families, unbounded_degree);
         let numbers = (0..self.outputs[0].nets.len()).into_par_iter();
         let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, caps.degree)).collect();
         let training = nets.iter().enumerate().map(|(k, net)| {
@@ -192,7 +192,7 @@ impl Together<'_> {
         let (fit, mut best) = best?;
         let mut knots = chosen.map_or_else(Vec::new, |chosen| chosen.knots.clone());
         // If factors are unbounded, residuals in a few rows are a tail.
-        let is_tail = self.families.contains(&Family::Hermite) && best.is_heavy_tailed();
+        let is_tail = self.families.iter().any(Family::is_unbounded) && best.is_heavy_tailed();
         if chosen.is_none() && self.outputs.len() == 1 && best.residual() > ROUGH && !is_tail {
             (knots, best) = self.add_knots(fit, best);
         }
@@ -302,7 +302,7 @@ fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
         [] => family.clone(),
         _ => Family::Knotted(Box::new(Knotted::new(family, knots, degree))),
     });
-    Trial { families: families.collect(), hermite_degree: MAX_HERMITE_DEGREES, ratio: 1.0 }
+    Trial { families: families.collect(), unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: 1.0 }
 }
 
 #[cfg(test)]

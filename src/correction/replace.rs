@@ -46,9 +46,11 @@ pub(crate) fn correct(
         low: surrogate.low.clone(),
     };
     let used = SurrogateUse { is_doubted: used.corrects() && gaps.is_doubt(), ..used };
+    // What most of the variance is claimed for and no row shows is not excluded: intervals of plain indices include it.
+    let is_claimed = surrogate.refusal().is_some();
     let corrected = Corrected {
-        first_order: used.corrects_first_order.then_some(&first_order),
-        total: used.corrects_total.then_some(&total),
+        first_order: (used.corrects_first_order || is_claimed).then_some(&first_order),
+        total: (used.corrects_total || is_claimed).then_some(&total),
     };
     let mut new = plain.clone().map(|_, _| None);
     if let Some(first_order) = corrected.first_order {
@@ -69,6 +71,10 @@ pub(crate) fn correct(
     let is_doubted = surrogate.is_uncertain() || gaps.is_doubt();
     let corrected = plain.zip(new.into_list()).map(|_, (plain, new)| match new {
         None => plain,
+        Some(new) if is_claimed => {
+            let interval = hull(new.estimate.interval, plain.estimate.interval).or(plain.estimate.interval);
+            Judgement { estimate: Estimate { interval, ..plain.estimate }, ..plain }
+        }
         Some(new) if is_doubted => {
             let interval = hull(new.estimate.interval, plain.estimate.interval);
             Judgement { estimate: Estimate { interval, ..new.estimate }, ..plain }

@@ -30,22 +30,22 @@ pub struct Caps<'a> {
     pub terms: usize,
     /// Maximum sum of degrees.
     pub degree: usize,
-    /// Maximum sum of the degrees of Hermite polynomials.
-    pub hermite_degree: usize,
+    /// Maximum sum of the degrees of polynomials without bounds.
+    pub unbounded_degree: usize,
     /// The polynomials of every factor.
     pub families: &'a [Family],
 }
 
 impl<'a> Caps<'a> {
     /// Returns the limits for factors with polynomials of these `families`.
-    pub fn new(families: &'a [Family], hermite_degree: usize) -> Self {
+    pub fn new(families: &'a [Family], unbounded_degree: usize) -> Self {
         let terms = match families.len() {
             0..=4 => 400,
             5..=10 => 300,
             _ => 260,
         };
         let degree = Self::degree_of(families.len());
-        Self { terms, degree, hermite_degree, families }
+        Self { terms, degree, unbounded_degree, families }
     }
 
     /// Returns the largest sum of degrees of a term with this number of factors.
@@ -59,16 +59,16 @@ impl<'a> Caps<'a> {
 
     /// Returns whether the degree of `term` is within the limits.
     fn allow(&self, term: &[(usize, usize)]) -> bool {
-        let (mut sum, mut hermite_sum) = (0, 0);
+        let (mut sum, mut unbounded_sum) = (0, 0);
         for &(factor, degree) in term {
             let family = &self.families[factor];
             if degree > family.degree() {
                 return false;
             }
             sum += degree;
-            hermite_sum += if *family.smooth() == Family::Hermite { degree } else { 0 };
+            unbounded_sum += if family.is_unbounded() { degree } else { 0 };
         }
-        sum <= self.degree && hermite_sum <= self.hermite_degree
+        sum <= self.degree && unbounded_sum <= self.unbounded_degree
     }
 }
 

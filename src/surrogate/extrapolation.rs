@@ -2,9 +2,10 @@
 //!
 //! The indices of an expansion are computed exactly, which includes regions where no run shows whether it is right. A
 //! polynomial of high degree in an unbounded variable has most of its variance there. Its departure in the tails from
-//! the tangents at their edges is therefore counted as a part of the error of every number to which it contributes;
-//! less of it if the expansion fits well or its degree is low, since a function close to a polynomial of low degree
-//! continues like one.
+//! the tangents at their edges, straight in the values of the factor, is therefore counted as a part of the error of
+//! every number to which it contributes; less of it if the expansion fits well or its degree is low, since a function
+//! close to a polynomial of low degree continues like one. The rise of the tangents counts too, in proportion to the
+//! residual: where a tail is heavy, it is most of the variance of a straight line.
 //!
 //! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a knot from
 //! one another counts as if the step were uniform over the width of the knot, of standard deviation width/sqrt(12).
@@ -12,7 +13,7 @@
 use std::collections::BTreeMap;
 
 use super::basis::Term;
-use super::family::{Family, polynomials};
+use super::family::{Family, polynomials, upper_polynomials};
 use super::fit::Expansion;
 use super::terms::{Effects, is_interaction, touches, within};
 
@@ -31,48 +32,36 @@ const KNOT_SIDE: f64 = 1e-9;
 /// Measured on sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
+/// A function that returns the polynomials of a family at a distance in the quantile from one of its ends.
+type Polynomials = fn(&Family, &[f64], usize) -> Vec<Vec<f64>>;
+
 /// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
 struct Tail {
     /// Probabilities of the nodes.
     weights: Vec<f64>,
     /// The polynomials of degree 1, 2, ... at the nodes.
     values: Vec<Vec<f64>>,
-    /// Their tangents at the edge, at the nodes.
+    /// Their tangents at the edge, at the nodes and, of a tail, at the edge itself.
     tangents: Vec<Vec<f64>>,
 }
 
 impl Tail {
     /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
-        match family.smooth() {
-            Family::Hermite | Family::Orthogonal(_) => {
-                [false, true].map(|upper| Self::new(family, mass, degree, upper)).into()
-            }
-            Family::Legendre | Family::Column(_) | Family::Knotted(_) => Vec::new(),
+        let has_tails = matches!(family.own(), Family::Hermite | Family::Orthogonal(_)) && family.own().degree() > 0;
+        if !has_tails {
+            return Vec::new();
         }
+        [polynomials, upper_polynomials].map(|polynomials| Self::new(family, mass, degree, polynomials)).into()
     }
 
-    /// Returns the lower or the upper one of them.
-    fn new(family: &Family, mass: f64, mut degree: usize, is_upper: bool) -> Self {
+    /// Returns the lower or the upper one of them, given the function that returns its polynomials.
+    fn new(family: &Family, mass: f64, degree: usize, polynomials: Polynomials) -> Self {
         let nodes: Vec<f64> = (0..PANELS).map(|k| mass * libm::exp(-(STEP * (k as f64 + 0.5)))).collect();
         let weights = nodes.iter().map(|u| u * STEP).collect();
-        let mut points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
-        if let Family::Knotted(knotted) = family {
-            degree = knotted.degree();
-        }
-        // Hermite polynomials are even or odd, and 1 - u has no digits far out.
-        let is_mirrored = is_upper && *family.smooth() == Family::Hermite;
-        if is_upper && !is_mirrored {
-            points.iter_mut().for_each(|u| *u = 1.0 - *u);
-        }
-        let mut values = polynomials(family.smooth(), &points, degree);
-        if is_mirrored {
-            values.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
-        }
-        let x = values.first().cloned().unwrap_or_default();
-        if let Family::Knotted(knotted) = family {
-            values = knotted.columns(values, degree);
-        }
+        let points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
+        let mut values = polynomials(family, &points, degree);
+        let x = polynomials(family.own(), &points, 1).swap_remove(0);
         let tangents = values.iter().map(|of| tangent(&x, of)).collect();
         values.iter_mut().for_each(|of| of.truncate(PANELS));
         Self { weights, values, tangents }
@@ -94,20 +83,29 @@ impl Tail {
         let mut departure = Departure::default();
         for (node, weight) in self.weights.iter().enumerate() {
             let (p, q) = (group.value(&self.values, node), group.value(&self.tangents, node));
-            departure.mean += weight * (p - q).abs();
-            departure.square += weight * (p * p - q * q).abs();
+            departure.add(*weight, p, q);
+        }
+        departure
+    }
+
+    /// Computes the departure of the tangent from its value at the edge.
+    fn rise(&self, group: &Group) -> Departure {
+        let mut departure = Departure::default();
+        let edge = group.value(&self.tangents, PANELS);
+        for (node, weight) in self.weights.iter().enumerate() {
+            departure.add(*weight, group.value(&self.tangents, node), edge);
         }
         departure
     }
 }
 
-/// Returns the tangent at the edge of a polynomial with the values `of`, at the nodes; `x` is that of degree 1.
+/// Returns the tangent at the edge of a polynomial with the values `of`, at the nodes and at the edge; `x` is that of degree 1.
 fn tangent(x: &[f64], of: &[f64]) -> Vec<f64> {
     let [edge, near] = [PANELS, PANELS + 1];
     let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
     // The slope is undefined between two levels of a discrete distribution.
     let slope = if slope.is_finite() { slope } else { 0.0 };
-    x[..PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
+    x[..=PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
 }
 
 /// The departure of a polynomial from its tangents: the mean of the absolute differences, and of those of the squares.
@@ -118,11 +116,16 @@ struct Departure {
 }
 
 impl Departure {
+    /// Adds that of `p` from `q` at a node.
+    fn add(&mut self, weight: f64, p: f64, q: f64) {
+        self.mean += weight * (p - q).abs();
+        self.square += weight * (p * p - q * q).abs();
+    }
+
     /// Computes the sum over some tails.
-    fn sum(tails: &[Tail], group: &Group) -> Self {
+    fn sum(tails: &[Tail], of: impl Fn(&Tail) -> Self) -> Self {
         let mut sum = Self::default();
-        for tail in tails {
-            let Self { mean, square } = tail.departure(group);
+        for Self { mean, square } in tails.iter().map(of) {
             sum.mean += mean;
             sum.square += square;
         }
@@ -157,12 +160,12 @@ impl ExtrapolationError {
             pairs: vec![0.0; effects.pairs.len()],
         };
         let mass = 1.0 / points.max(2) as f64;
-        let rest = rest.max(0.0).sqrt();
+        let rest = rest.clamp(0.0, 1.0).sqrt();
         let share = 1.0 / expansions.len() as f64;
         let groups: Vec<BTreeMap<(usize, Term), Group>> = expansions.iter().map(groups).collect();
         for (factor, family) in families.iter().enumerate() {
             let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
-            let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            let tails = if degree > 0 { Tail::both(family, mass, degree) } else { Vec::new() };
             let knots = Tail::knots(family);
             if tails.is_empty() && knots.is_empty() {
                 continue;
@@ -172,21 +175,34 @@ impl ExtrapolationError {
                 let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
                 // A close fit determines tails, and no knots.
                 let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                let (tail, knot) = (Departure::sum(&tails, group), Departure::sum(&knots, group));
+                let [tail, knot] = [&tails, &knots].map(|of| Departure::sum(of, |tail| tail.departure(group)));
+                let rise = Departure::sum(&tails, |tail| tail.rise(group));
+                let mean = weight * tail.mean + share * (knot.mean + rest * rise.mean);
                 if others.is_empty() {
-                    all.mean += weight * tail.mean + share * knot.mean;
+                    all.mean += mean;
+                } else {
+                    // The mean over the factor is the coefficient of the others.
+                    all.add_to_parts(others, 2.0 * group.offset.abs() * mean, effects);
                 }
-                all.add(&with(others, factor), weight * tail.square + share * knot.square, effects);
+                let square = weight * tail.square + share * (knot.square + rest * rise.square);
+                all.add(&with(others, factor), square, effects);
             }
         }
         all
     }
 
-    fn add(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
+    fn add(&mut self, term: &[(usize, usize)], error: f64, effects: &Effects) {
         self.variance += error;
-        for (number, swap) in swaps.iter().enumerate() {
-            self.first_order[number] += if within(term, swap) { error } else { 0.0 };
-            self.total[number] += if touches(term, swap) { error } else { 0.0 };
+        for (total, swap) in self.total.iter_mut().zip(&effects.swaps) {
+            *total += if touches(term, swap) { error } else { 0.0 };
+        }
+        self.add_to_parts(term, error, effects);
+    }
+
+    /// Adds an error to the effects of which `term` is the whole or a part, except the total ones.
+    fn add_to_parts(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
+        for (first_order, swap) in self.first_order.iter_mut().zip(swaps) {
+            *first_order += if within(term, swap) { error } else { 0.0 };
         }
         for (of_pair, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
             *of_pair += if is_interaction(term, &swaps[j], &swaps[k]) { error } else { 0.0 };

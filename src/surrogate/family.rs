@@ -1,4 +1,4 @@
-//! The functions of one factor: orthonormal polynomials, with steps and kinks if there are knots.
+//! The functions of one factor, orthonormal under its distribution: polynomials, with steps and kinks if there are knots.
 
 use super::gram::{Square, add_scaled, inverse, lower_factor};
 use super::orthogonal::{OrthogonalPolynomials, Recurrence, recurred, rule};
@@ -14,10 +14,12 @@ const PANELS: i32 = 50;
 pub enum Family {
     /// Legendre polynomials of the quantile, scaled to the unit interval: for every distribution.
     Legendre,
-    /// Hermite polynomials of the normal quantile: for normal and log-normal factors.
+    /// Hermite polynomials of the normal quantile: for normal factors.
     Hermite,
     /// Polynomials orthonormal under the distribution of the factor, in its values.
     Orthogonal(Box<OrthogonalPolynomials>),
+    /// Others in place of the own polynomials of a factor without bounds.
+    Replaced { own: Box<Family>, by: Box<Family> },
     /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
     Column(Box<Recurrence>),
     /// Polynomials of another family together with steps and kinks, all of which count as degrees.
@@ -32,11 +34,7 @@ impl Family {
             Distribution::Seed(_) => Self::Column(Box::default()),
             // Smooth in the logarithm, which is uniform.
             Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
-            Distribution::Normal(_)
-            | Distribution::LogNormal(_)
-            | Distribution::Weibull(_)
-            | Distribution::Gumbel(_) => Self::Hermite,
-            // Unbounded distributions use polynomials of their quantiles.
+            Distribution::Normal(_) => Self::Hermite,
             _ => OrthogonalPolynomials::new(distribution, MAX_DEGREES)
                 .map_or(Self::Legendre, |polynomials| Self::Orthogonal(Box::new(polynomials))),
         }
@@ -55,12 +53,37 @@ impl Family {
         if let Self::Knotted(knotted) = self { &knotted.base } else { self }
     }
 
+    /// Returns the polynomials in the values of the factor, in which a smooth output continues beyond all rows.
+    pub fn own(&self) -> &Self {
+        if let Self::Replaced { own, .. } = self.smooth() { own } else { self.smooth() }
+    }
+
+    /// Returns whether its polynomials grow without bounds.
+    pub fn is_unbounded(&self) -> bool {
+        match self {
+            Self::Hermite => true,
+            Self::Orthogonal(polynomials) => polynomials.is_unbounded(),
+            Self::Replaced { by, .. } => by.is_unbounded(),
+            Self::Knotted(knotted) => knotted.base.is_unbounded(),
+            Self::Legendre | Self::Column(_) => false,
+        }
+    }
+
+    /// Returns the family with the polynomials `by` instead of its own if it is without bounds.
+    pub fn replaced(&self, by: Self) -> Self {
+        match self.is_unbounded() && *self != by && self.degree() > 0 {
+            true => Self::Replaced { own: Box::new(self.clone()), by: Box::new(by) },
+            false => self.clone(),
+        }
+    }
+
     /// Returns the largest available degree.
     pub fn degree(&self) -> usize {
         match self {
             Self::Legendre | Self::Hermite => MAX_DEGREES,
             Self::Orthogonal(polynomials) => polynomials.degree(),
             Self::Column(recurrence) => recurrence.degree(),
+            Self::Replaced { by, .. } => by.degree(),
             Self::Knotted(knotted) => knotted.degree(),
         }
     }
@@ -170,6 +193,7 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         Family::Orthogonal(polynomials) => polynomials.columns(u),
         Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
         Family::Column(recurrence) => recurrence.columns(u, degree),
+        Family::Replaced { by, .. } => polynomials(by, u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
             let mut columns = recurred(&x, degree, |n, x, p, q| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0));
@@ -182,6 +206,24 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         Family::Hermite => {
             let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
             recurred(&x, degree, |n, x, p, q| (x * p - n.sqrt() * q) / (n + 1.0).sqrt())
+        }
+    }
+}
+
+/// Returns the same at the quantiles of 1 - `v`, to full precision if `v` is small.
+pub fn upper_polynomials(family: &Family, v: &[f64], degree: usize) -> Vec<Vec<f64>> {
+    match family {
+        Family::Orthogonal(polynomials) => polynomials.upper_columns(v),
+        Family::Knotted(knotted) => knotted.columns(upper_polynomials(&knotted.base, v, knotted.degree()), degree),
+        Family::Replaced { by, .. } => upper_polynomials(by, v, degree),
+        Family::Hermite => {
+            // They are even or odd.
+            let mut columns = polynomials(family, v, degree);
+            columns.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
+            columns
+        }
+        Family::Legendre | Family::Column(_) => {
+            polynomials(family, &v.iter().map(|v| 1.0 - v).collect::<Vec<f64>>(), degree)
         }
     }
 }

@@ -40,7 +40,8 @@ impl<'a> IdentifiableTerms<'a> {
                 Family::Orthogonal(polynomials) if polynomials.has_levels() => {
                     spreads.iter().map(|net| identifiable_degrees(net)).min().unwrap_or(0)
                 }
-                // The behaviour of polynomials of high degree in thin tails is a part of their error.
+                // What no row of a tail shows is a part of the error of polynomials without bounds, and of high degree.
+                _ if family.is_unbounded() => usize::MAX,
                 Family::Orthogonal(_) if identifiable_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
                 _ => usize::MAX,
             });

@@ -29,6 +29,11 @@ const SIGNIFICANT: f64 = 10.0;
 /// Minimum distance of two knots in the quantile. Nearer ones are mostly a single one next to the edge of a bin.
 const APART: f64 = 0.04;
 
+/// Share of the square of a step, the mean over the rows that show it, that a row must say to be one of them; and the
+/// same in squares of their residual.
+const NOT_SHOWN: f64 = 0.1;
+const UNCERTAIN: f64 = 4.0;
+
 /// Maximum move of a knot, in its widths.
 pub const MAX_MOVED: f64 = 1.5;
 
@@ -46,7 +51,10 @@ impl Knotted {
         coefficients: &[(usize, f64)],
     ) -> Vec<Knot> {
         let knots = self.knots.iter().enumerate().map(|(place, knot)| match knot.is_step {
-            true => placed_step(*knot, nets, moved, factor),
+            true => {
+                let reach = MAX_MOVED * knot.width;
+                placed_step(*knot, &shown(knot.u - reach..knot.u + reach, nets, moved, factor))
+            }
             false => self.placed_kink(place, coefficients),
         });
         knots.collect()
@@ -72,33 +80,60 @@ pub(crate) struct MovedValues {
     pub right: Vec<OutputTable>,
 }
 
-/// Places a step where the sum of squared residuals of all rows nearby is least: between two sampled values, whose
-/// distance is the new width.
-fn placed_step(knot: Knot, nets: &[Net], moved: &MovedValues, factor: usize) -> Knot {
+/// What the rows at one value of a factor say of the place of a step.
+#[derive(Clone, Copy)]
+struct Shown {
+    u: f64,
+    /// How much larger their squared residuals are with the values before the step than with those after it.
+    more: f64,
+    /// The square of the step.
+    step: f64,
+    /// The squared residuals on the better side, weighted by that of the step.
+    noise: f64,
+}
+
+/// Places a step in the middle between the last of `rows` and the next one that shows it, where the sum of squared
+/// residuals is least; their distance is the new width.
+fn placed_step(knot: Knot, rows: &[Shown]) -> Knot {
     let reach = MAX_MOVED * knot.width;
-    // How much larger the residuals are with the values before the step than with those after it.
-    let mut rows: Vec<(f64, f64)> = Vec::new();
+    let [mut steps, mut squares, mut noise] = [0.0; 3];
+    // At every place the sum of the rows before it.
+    let mut sums = vec![0.0];
+    for (number, row) in rows.iter().enumerate() {
+        (steps, squares, noise) = (steps + row.step, squares + row.step * row.step, noise + row.noise);
+        sums.push(sums[number] + row.more);
+    }
+    let best = (0..sums.len()).fold(0, |best, place| if sums[place] < sums[best] { place } else { best });
+    let limit = sums[best] + f64::max((NOT_SHOWN * squares + UNCERTAIN * noise) / steps, 0.0);
+    let first = (0..best).rev().take_while(|place| sums[*place] <= limit).last().unwrap_or(best);
+    let last = (best + 1..sums.len()).take_while(|place| sums[*place] <= limit).last().unwrap_or(best);
+    let low = if first == 0 { knot.u - reach } else { rows[first - 1].u };
+    let high = rows.get(last).map_or(knot.u + reach, |row| row.u);
+    Knot { u: f64::midpoint(low, high), width: high - low, ..knot }
+}
+
+/// Returns what rows with quantiles of `factor` in `range` say, by rising quantile.
+fn shown(range: Range<f64>, nets: &[Net], moved: &MovedValues, factor: usize) -> Vec<Shown> {
+    let mut rows: Vec<Shown> = Vec::new();
     for ((net, left), right) in nets.iter().zip(&moved.left).zip(&moved.right) {
         for (run, output) in net.outputs.iter().enumerate() {
-            for (p, u) in net.quantiles(run, factor).iter().enumerate() {
-                if (u - knot.u).abs() < reach {
-                    let (after, before) = (output[p] - left.runs[run][p], output[p] - right.runs[run][p]);
-                    rows.push((*u, before.powi(2) - after.powi(2)));
-                }
+            for (p, &u) in net.quantiles(run, factor).iter().enumerate().filter(|(_, u)| range.contains(u)) {
+                let (after, before) = (left.runs[run][p], right.runs[run][p]);
+                let [rest_after, rest_before] = [after, before].map(|value| (output[p] - value).powi(2));
+                let step = (after - before).powi(2);
+                rows.push(Shown { u, more: rest_before - rest_after, step, noise: step * rest_before.min(rest_after) });
             }
         }
     }
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ends: Vec<f64> = [knot.u - reach].into_iter().chain(rows.iter().map(|row| row.0)).collect();
-    let (mut sum, mut least, mut best) = (0.0, 0.0, 0);
-    for (number, (u, more)) in rows.iter().enumerate() {
-        sum += more;
-        if sum < least && rows.get(number + 1).is_none_or(|next| next.0 > *u) {
-            (least, best) = (sum, number + 1);
+    rows.sort_by(|a, b| a.u.total_cmp(&b.u));
+    rows.dedup_by(|next, row| {
+        let is_same = next.u == row.u;
+        if is_same {
+            (row.more, row.step, row.noise) = (row.more + next.more, row.step + next.step, row.noise + next.noise);
         }
-    }
-    let next = ends.get(best + 1).copied().unwrap_or(knot.u + reach);
-    Knot { u: (ends[best] + next) / 2.0, width: next - ends[best], ..knot }
+        is_same
+    });
+    rows
 }
 
 /// Returns the knots of `factor` that the residuals `rest` of expansions show; none for seeds and factors with few
@@ -110,9 +145,9 @@ pub(crate) fn knots(nets: &[Net], rest: &[OutputTable], factor: usize, family: &
     let degree = degree.min(bins / BINS_OF_POLYNOMIAL);
     let mut columns = polynomials(family, &centres, degree);
     let Some(x) = columns.first().cloned().filter(|x| x.is_sorted_by(|a, b| a < b)) else { return Vec::new() };
-    if *family == Family::Hermite {
+    if family.is_unbounded() {
         // The tails of its polynomials are steep: both families work.
-        columns.truncate(super::SAFE_HERMITE_DEGREES);
+        columns.truncate(super::SAFE_UNBOUNDED_DEGREES);
         columns.append(&mut polynomials(&Family::Legendre, &centres, degree));
     }
     let mut residuals = BinnedResiduals::new(nets, rest, factor, bins);

@@ -35,12 +35,12 @@ const MIN_POINTS: usize = 4;
 /// The same if each has plain rows, which are more informative than rows of a base point that share their columns.
 const MIN_POINTS_WITH_PLAIN_ROWS: usize = 2;
 
-/// Maximum sum of degrees of Hermite polynomials in a term. Those of high degree are large where there are hardly any
+/// Maximum sum of degrees of polynomials without bounds in a term. Those of high degree are large where there are hardly any
 /// rows: few rows determine their coefficients, and no row shows their behaviour beyond.
-pub(crate) const SAFE_HERMITE_DEGREES: usize = 4;
+pub(crate) const SAFE_UNBOUNDED_DEGREES: usize = 4;
 
 /// The same if this reduces the residuals of the other runs clearly, as for powers and exponentials.
-pub(crate) const MAX_HERMITE_DEGREES: usize = 10;
+pub(crate) const MAX_UNBOUNDED_DEGREES: usize = 10;
 
 /// The ratio that counts as clearly less.
 const CLEARLY_LESS: f64 = 0.25;
@@ -69,24 +69,22 @@ pub(crate) fn fewest_points(design: &Design) -> usize {
 pub(crate) struct Trial {
     /// The polynomials of every factor.
     pub families: Vec<Family>,
-    /// Maximum sum of degrees of Hermite polynomials in a term.
-    pub hermite_degree: usize,
+    /// Maximum sum of degrees of polynomials without bounds in a term.
+    pub unbounded_degree: usize,
     /// Maximum ratio of its residual to that of the best previous trial for which it is preferred.
     pub ratio: f64,
 }
 
 /// Returns the trials for factors with the polynomials `families`, in order.
 pub(crate) fn trials(families: &[Family]) -> Vec<Trial> {
-    let safe = Trial { families: families.to_vec(), hermite_degree: SAFE_HERMITE_DEGREES, ratio: 1.0 };
-    if !families.contains(&Family::Hermite) {
+    let safe = Trial { families: families.to_vec(), unbounded_degree: SAFE_UNBOUNDED_DEGREES, ratio: 1.0 };
+    if !families.iter().any(Family::is_unbounded) {
         return vec![safe];
     }
-    let mut bounded = Trial { hermite_degree: 0, ..safe.clone() };
-    for family in bounded.families.iter_mut().filter(|family| **family == Family::Hermite) {
-        *family = Family::Legendre;
-    }
-    let steep = Trial { hermite_degree: MAX_HERMITE_DEGREES, ratio: CLEARLY_LESS, ..safe.clone() };
-    vec![safe, bounded, steep]
+    let [bounded, scores] = [Family::Legendre, Family::Hermite]
+        .map(|by| Trial { families: families.iter().map(|own| own.replaced(by.clone())).collect(), ..safe.clone() });
+    let steep = Trial { unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: CLEARLY_LESS, ..scores.clone() };
+    if scores == safe { vec![safe, bounded, steep] } else { vec![safe, bounded, scores, steep] }
 }
 
 /// Returns the first base points of `design` with at most [`MAX_FITTED_ROWS`] rows: a power of two, or all.

@@ -27,6 +27,10 @@ const MISSED_COUNTS: f64 = 1e-13;
 /// Length of the new part of a polynomial below which it vanishes: there are as many degrees as levels.
 const NOTHING: f64 = 1e-7;
 
+/// Share of the square of a polynomial at the outermost node of a distribution without bounds, at a probability of
+/// 1e-290, above which the square has no finite mean.
+const DIVERGES: f64 = 1e-9;
+
 /// Polynomials orthonormal under some weights, by the three-term recurrence b_(k+1) p_(k+1) = (x - a_k) p_k - b_k
 /// p_(k-1), p_0 = 1, for values shifted and scaled to -1 to 1.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -54,7 +58,7 @@ impl Recurrence {
             let rest = nodes.iter().zip(now.iter().zip(&before)).map(|((x, _), (p, q))| (x - a) * p - length * q);
             let rest: Vec<f64> = rest.collect();
             length = nodes.iter().zip(&rest).map(|((_, weight), p)| weight * (p * p)).sum::<f64>().sqrt();
-            if length < NOTHING {
+            if !(length >= NOTHING && length.is_finite()) {
                 break;
             }
             before = std::mem::replace(&mut now, rest.iter().map(|p| p / length).collect());
@@ -87,8 +91,9 @@ pub struct OrthogonalPolynomials {
 }
 
 impl OrthogonalPolynomials {
-    /// Computes polynomials up to `degree`, or fewer for a distribution with few levels. `None` without a bounded
-    /// support of positive width, or if unknown steps spoil the standard deviation by quadrature.
+    /// Computes polynomials up to `degree`, or fewer for a distribution with few levels, and half the number of finite
+    /// moments of one without bounds. `None` for a constant, or if unknown steps spoil the standard deviation by
+    /// quadrature.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
         let levels = match distribution {
             Distribution::Poisson(poisson) => poisson.levels_above(MISSED_COUNTS),
@@ -96,7 +101,10 @@ impl OrthogonalPolynomials {
         };
         let ends = levels.as_ref().and_then(|levels| Some((levels.first()?.0, levels.last()?.0)));
         let (low, high) = ends.unwrap_or_else(|| distribution.support());
-        if !(high > low && (high - low).is_finite()) {
+        if (high - low).is_infinite() {
+            return Self::without_bounds(distribution, degree);
+        }
+        if high <= low {
             return None;
         }
         let nodes = match (levels, distribution) {
@@ -116,9 +124,27 @@ impl OrthogonalPolynomials {
         Some(Self { distribution: distribution.clone(), recurrence })
     }
 
+    /// Does the same for a continuous distribution without a bound.
+    fn without_bounds(distribution: &Distribution, degree: usize) -> Option<Self> {
+        let (mean, sd) = (distribution.mean(), distribution.sd());
+        let nodes = distribution.quadrature();
+        let mut recurrence = Recurrence::new(&nodes, (mean - sd, mean + sd), degree)?;
+        let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+        let columns = recurrence.columns(&[first.0, last.0], degree);
+        let is_finite = |p: &Vec<f64>| first.1 * p[0] * p[0] < DIVERGES && last.1 * p[1] * p[1] < DIVERGES;
+        recurrence.coefficients.truncate(columns.iter().take_while(|p| is_finite(p)).count());
+        Some(Self { distribution: distribution.clone(), recurrence })
+    }
+
     /// Returns the largest degree.
     pub fn degree(&self) -> usize {
         self.recurrence.degree()
+    }
+
+    /// Returns whether the distribution has no lower or no upper bound.
+    pub fn is_unbounded(&self) -> bool {
+        let (low, high) = self.distribution.support();
+        (high - low).is_infinite() && !self.has_levels()
     }
 
     /// Returns whether the distribution has few values.
@@ -130,6 +156,12 @@ impl OrthogonalPolynomials {
     pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];
         self.distribution.fill(u, &mut x);
+        self.recurrence.columns(&x, self.degree())
+    }
+
+    /// Returns the same at the quantiles of 1 - `v`, to full precision if `v` is small.
+    pub fn upper_columns(&self, v: &[f64]) -> Vec<Vec<f64>> {
+        let x: Vec<f64> = v.iter().map(|v| self.distribution.upper_quantile(*v)).collect();
         self.recurrence.columns(&x, self.degree())
     }
 }

@@ -57,7 +57,7 @@ impl Coordinates {
     /// Creates those whose distributions are those of their `values`.
     fn new(name: &'static str, values: Vec<Vec<f64>>) -> Self {
         let families = values.iter().map(|x| Family::of_column(x)).collect();
-        Self { trial: Trial { families, hermite_degree: 0, ratio: 1.0 }, values, name }
+        Self { trial: Trial { families, unbounded_degree: 0, ratio: 1.0 }, values, name }
     }
 }
 

@@ -227,7 +227,7 @@ impl Job<'_> {
     }
 
     fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {
-        let caps = Caps::new(&coordinates.trial.families, coordinates.trial.hermite_degree);
+        let caps = Caps::new(&coordinates.trial.families, coordinates.trial.unbounded_degree);
         let nets = self.nets(coordinates, caps, z);
         let expansions = cross_fitted(&nets, caps);
         let folds = nets.par_iter().zip(&expansions).map(|(net, expansion)| {

@@ -279,8 +279,14 @@ impl Distribution {
     }
 
     /// Returns the quantile at 1 - `v`, to full precision if `v` is small.
-    fn upper_quantile(&self, v: f64) -> f64 {
+    pub(crate) fn upper_quantile(&self, v: f64) -> f64 {
         self.family().upper_quantile(v)
+    }
+
+    /// Returns values and weights of a quadrature of a continuous distribution, down to probabilities of 1e-290.
+    pub(crate) fn quadrature(&self) -> Vec<(f64, f64)> {
+        let nodes = quadrature::nodes();
+        nodes.map(|(u, v, weight)| (if u < v { self.quantile(u) } else { self.upper_quantile(v) }, weight)).collect()
     }
 
     /// Refuses a distribution that has no variance, or overflows within the guaranteed range of `u`.

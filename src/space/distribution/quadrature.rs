@@ -26,19 +26,24 @@ pub(super) fn integral(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64
     half * (0..PANELS).map(|index| panel(from + half * f64::from(2 * index + 1), half, &function)).sum::<f64>()
 }
 
-/// Returns mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1.
-///
-/// Uses the tanh-sinh rule (Takahasi and Mori 1974, Publ. RIMS Kyoto Univ. 9, 721-741), which allows singularities at
-/// the ends; `u` and `v` go down to 1e-290.
-pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64) -> (f64, f64) {
+/// Iterates over the nodes u, 1 - u and the weights, from 0 to 1, of the tanh-sinh rule (Takahasi and Mori 1974, Publ.
+/// RIMS Kyoto Univ. 9, 721-741), which allows singularities at the ends; u and 1 - u go down to 1e-290.
+pub(super) fn nodes() -> impl Iterator<Item = (f64, f64, f64)> {
     const STEP: f64 = 1.0 / 32.0;
-    let origin = quantile(0.5, 0.5);
-    let (mut first, mut second) = (0.0, 0.0);
-    for t in (-193..=193).map(|index| STEP * f64::from(index)) {
+    (-193..=193).map(|index| {
+        let t = STEP * f64::from(index);
         let ratio = libm::exp(-PI * libm::sinh(t).abs());
         let (small, large) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio));
         let weight = STEP * PI * libm::cosh(t) * small * large;
-        let (below, above) = if t < 0.0 { (small, large) } else { (large, small) };
+        if t < 0.0 { (small, large, weight) } else { (large, small, weight) }
+    })
+}
+
+/// Returns mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1.
+pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64) -> (f64, f64) {
+    let origin = quantile(0.5, 0.5);
+    let (mut first, mut second) = (0.0, 0.0);
+    for (below, above, weight) in nodes() {
         let deviation = quantile(below, above) - origin;
         first += weight * deviation;
         second += weight * deviation * deviation;

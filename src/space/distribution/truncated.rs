@@ -324,7 +324,7 @@ impl Family for Truncated {
         let value = match (&self.quantiles, &*self.law) {
             (Quantiles::Normal { centre }, Distribution::Normal(Normal { mean, sd })) => {
                 // From the tail or the centre, where the probability has the most digits.
-                let (lower, upper) = (below + u * mass, above + (1.0 - u) * mass);
+                let (lower, upper) = (below + u * mass, above + v * mass);
                 let z = if lower < 0.25 {
                     normal_quantile(lower)
                 } else if upper < 0.25 {
@@ -342,8 +342,8 @@ impl Family for Truncated {
                 } else {
                     // -ln (F / F(max)), a positive number like -ln F(max), so that their sum keeps its digits.
                     let above = match u < 0.5 {
-                        true => -libm::log(u + (1.0 - u) * libm::exp(-ratio)),
-                        false => -libm::log1p((1.0 - u) * libm::expm1(-ratio)),
+                        true => -libm::log(u + v * libm::exp(-ratio)),
+                        false => -libm::log1p(v * libm::expm1(-ratio)),
                     };
                     match above < *log_max {
                         true => max - scale * libm::log1p(above / log_max),

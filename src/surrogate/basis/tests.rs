@@ -51,7 +51,7 @@ fn polynomials_are_orthonormal() {
 #[test]
 fn neighbours_lead_on_from_what_matters() {
     let active = vec![vec![], vec![(0, 1)], vec![(1, 2)]];
-    let caps = Caps { terms: 20, degree: 6, hermite_degree: 0, families: &legendre(2) };
+    let caps = Caps { terms: 20, degree: 6, unbounded_degree: 0, families: &legendre(2) };
     let terms = neighbours(&active, &[3.0, 0.5, 2.0], caps);
     assert_eq!(terms[..3], [vec![], vec![(1, 2)], vec![(0, 1)]]);
     for expected in [vec![(1, 3)], vec![(1, 4)], vec![(0, 1), (1, 2)], vec![(0, 2)], vec![(0, 1), (1, 1)]] {

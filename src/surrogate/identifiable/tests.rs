@@ -23,7 +23,7 @@ fn a_level_without_rows_gives_no_polynomial() {
     let rows = [even(64), even(64), even(64)];
     let nets = [net(&families, &rows)];
     let identifiable =
-        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, unbounded_degree: 0, families: &families });
     assert!(!identifiable.is_identifiable(&vec![(0, 1)]) && !identifiable.is_identifiable(&vec![(0, 1), (2, 1)]));
     assert!(identifiable.is_identifiable(&vec![(1, 1)]) && identifiable.is_identifiable(&vec![(2, 6)]));
 }
@@ -33,7 +33,7 @@ fn one_net_without_the_level_is_enough() {
     let families = [boolean(0.02)];
     let with = net(&families, &[even(100)]);
     let without = net(&families, &[even(100).into_iter().map(|u| 0.9 * u).collect()]);
-    let caps = Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families };
+    let caps = Caps { terms: 50, degree: 6, unbounded_degree: 0, families: &families };
     let nets = [with, without];
     assert!(IdentifiableTerms::new(&nets[..1], caps).is_identifiable(&vec![(0, 1)]));
     assert!(!IdentifiableTerms::new(&nets, caps).is_identifiable(&vec![(0, 1)]));
@@ -46,7 +46,7 @@ fn two_rare_levels_that_never_meet_do_not_interact() {
     let turned: Vec<f64> = even(100).into_iter().map(|u| (u + 0.5) % 1.0).collect();
     let nets = [net(&families, &[even(100), turned])];
     let identifiable =
-        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+        IdentifiableTerms::new(&nets, Caps { terms: 50, degree: 6, unbounded_degree: 0, families: &families });
     assert!(identifiable.is_identifiable(&vec![(0, 1)]) && identifiable.is_identifiable(&vec![(1, 1)]));
     assert!(!identifiable.is_identifiable(&vec![(0, 1), (1, 1)]));
 }
@@ -55,6 +55,6 @@ fn two_rare_levels_that_never_meet_do_not_interact() {
 fn all_terms_of_uniform_and_normal_factors_stay() {
     let families = [Family::Legendre, Family::Hermite];
     let nets = [net(&families, &[even(8), even(8)])];
-    let caps = Caps { terms: 50, degree: 6, hermite_degree: 4, families: &families };
+    let caps = Caps { terms: 50, degree: 6, unbounded_degree: 4, families: &families };
     assert_eq!(IdentifiableTerms::new(&nets, caps).retain(first_terms(caps, 50)), first_terms(caps, 50));
 }

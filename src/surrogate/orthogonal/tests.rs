@@ -60,5 +60,46 @@ fn as_many_levels_as_degrees() {
     let columns = family.columns(&[0.1, 0.5, 0.9]);
     let mean = |a: &[f64], b: &[f64]| 0.2 * a[0] * b[0] + 0.5 * a[1] * b[1] + 0.3 * a[2] * b[2];
     assert!((mean(&columns[0], &columns[0]) - 1.0).abs() < 1e-12 && mean(&columns[0], &columns[1]).abs() < 1e-12);
-    assert_eq!(OrthogonalPolynomials::new(&Distribution::normal(0.0, 1.0).unwrap(), 5), None);
+    assert_eq!(OrthogonalPolynomials::new(&Distribution::constant(1.0).unwrap(), 5), None);
+}
+
+#[test]
+fn polynomials_without_bounds_are_those_of_laguerre_and_hermite() {
+    // Of x in standard deviations from the mean: x p_k = b_(k+1) p_(k+1) + a_k p_k + b_k p_(k-1).
+    let gamma = |s: f64| move |k: f64| (2.0 * k / s.sqrt(), ((k + 1.0) * (k + s) / s).sqrt());
+    let check = |law: Distribution, exact: &dyn Fn(f64) -> (f64, f64)| {
+        let family = OrthogonalPolynomials::new(&law, 14).unwrap();
+        assert!(family.is_unbounded() && family.degree() == 14, "{law:?}");
+        for (k, (a, b)) in family.recurrence.coefficients.iter().enumerate() {
+            let (right_a, right_b) = exact(k as f64);
+            assert!((a - right_a).abs() < 1e-9 && (b - right_b).abs() < 1e-9, "{law:?} {k} {a} {b}");
+        }
+    };
+    check(Distribution::exponential(2.0, 5.0).unwrap(), &gamma(1.0));
+    check(Distribution::gamma(2.5, 3.0, 0.0).unwrap(), &gamma(2.5));
+    check(Distribution::normal(1.0, 2.0).unwrap(), &|k| (0.0, (k + 1.0).sqrt()));
+    let z = Distribution::exponential(1.0, 0.0).unwrap();
+    let family = OrthogonalPolynomials::new(&z, 2).unwrap();
+    // (x^2 - 4 x + 2)/2 at x = 50, where 1 - u has no digits.
+    let second = family.upper_columns(&[libm::exp(-50.0)])[1][0];
+    assert!((second - 1151.0).abs() < 1e-8, "{second}");
+}
+
+#[test]
+fn degrees_are_at_most_half_the_finite_moments() {
+    let degree = |law: Result<Distribution, _>| OrthogonalPolynomials::new(&law.unwrap(), 14).unwrap().degree();
+    assert_eq!([2.01, 3.0, 4.0, 4.5, 9.0].map(|shape| degree(Distribution::pareto(shape, 1.0))), [0, 1, 1, 2, 4]);
+    assert_eq!([3.0, 5.0, 10.0].map(|df| degree(Distribution::student_t(df, 0.0, 1.0))), [1, 2, 4]);
+    let infinity = f64::INFINITY;
+    for law in [
+        Distribution::gumbel(1.0, 2.0),
+        Distribution::logistic(1.0, 2.0),
+        Distribution::weibull(0.5, 1.0, 0.0),
+        Distribution::log_normal(1.0, 0.5),
+        Distribution::normal(0.0, 1.0).unwrap().truncated(0.0, infinity),
+        Distribution::gumbel(0.0, 1.0).unwrap().truncated(1.0, infinity),
+        Distribution::exponential(1.0, 0.0).unwrap().truncated(2.0, infinity),
+    ] {
+        assert_eq!(degree(law.clone()), 14, "{law:?}");
+    }
 }
