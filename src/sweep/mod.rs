@@ -7,7 +7,6 @@ mod range;
 #[cfg(test)]
 mod tests;
 use range::is_logarithmic;
-pub use range::values_over_range;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -223,7 +222,7 @@ impl Evaluator<'_> {
     fn sweep(&mut self, number: usize, points: usize, nominal: &[NominalOutput]) -> Result<Sweep, SweepError> {
         let factor = &self.space.factors()[number];
         let distribution = factor.distribution();
-        let values = values_over_range(distribution, points)?;
+        let values = distribution.values_over_range(points)?;
         let mut outputs = self.curve(number, &values)?;
         for ((swept, nominal), output) in outputs.iter_mut().zip(nominal).zip(self.outputs) {
             let width = swept.high.zip(swept.low).map(|(high, low)| high - low).filter(|_| !output.unit.has_offset());

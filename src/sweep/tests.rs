@@ -107,7 +107,7 @@ fn factors_are_found_by_name() {
 
 #[test]
 fn ranges_end_where_the_distribution_does() {
-    let values = |distribution, points| values_over_range(&distribution, points).unwrap();
+    let values = |distribution: Distribution, points| distribution.values_over_range(points).unwrap();
     let normal = values(Distribution::normal(0.0, 1.0).unwrap(), 3);
     // The quantile of 0.001 from tables.
     assert!((normal[0] + 3.0902).abs() < 1e-4 && normal[1].abs() < 1e-9 && (normal[2] - 3.0902).abs() < 1e-4);
@@ -119,6 +119,6 @@ fn ranges_end_where_the_distribution_does() {
     assert_eq!(values(Distribution::constant(2.5).unwrap(), 50), [2.5]);
     for points in [0, 1, Sweeps::MAX_POINTS + 1] {
         let discrete = Distribution::discrete(&[3.0, 1.0], None).unwrap();
-        assert_eq!(values_over_range(&discrete, points), Err(SweepError::Points(points)));
+        assert_eq!(discrete.values_over_range(points), Err(SweepError::Points(points)));
     }
 }

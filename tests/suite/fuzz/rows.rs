@@ -9,10 +9,8 @@ const ROWS: usize = 1 << 16;
 pub fn run(bytes: &[u8]) {
     read(bytes, &ReadOptions::default());
     read(bytes, &ReadOptions { no_header: true, missing: vec![-999.0], ..ReadOptions::default() });
-    if let Ok(text) = std::str::from_utf8(bytes) {
-        if let Ok(manifest) = Manifest::parse(text) {
-            assert!(Manifest::parse(&manifest.json()).is_ok());
-        }
+    if let Some(manifest) = std::str::from_utf8(bytes).ok().and_then(|text| Manifest::parse(text).ok()) {
+        assert!(Manifest::parse(&manifest.json()).is_ok());
     }
 }
 

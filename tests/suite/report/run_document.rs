@@ -57,7 +57,11 @@ fn degenerate_results_have_pages() {
     (output.runs_failed, output.runs_ok, output.base_points_used) = (512, 0, 0);
     output.reason = Some(Undefined::NoRuns);
     let html = page(&failed).html();
-    assert!(html.contains("no run succeeded") && html.contains("512 of 512 runs (100\u{a0}%) had no value"), "{html}");
+    assert!(
+        html.contains("fewer than two base points have all of their runs")
+            && html.contains("512 of 512 runs (100\u{a0}%) had no value"),
+        "{html}"
+    );
     assert!(html.contains("There are no values of y"));
     failed.outputs.clear();
     page(&failed).html();

@@ -1,7 +1,6 @@
 //! The critical force against one factor, all others at their defaults.
 
 use apportion::space::{Factor, Space};
-use apportion::sweep::values_over_range;
 use apportion_afm::{Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
 use apportion_base::text::{capitalised, listed};
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
@@ -96,7 +95,7 @@ pub(super) fn chart(figure: &PrintedFigure, factor: &str, space: &Space, effort:
     let points = if is_marched { 4 * points - 3 } else { points };
     let parameter = Parameter::from_name(factor).expect("a parameter of the model");
     let factor = space.factors().iter().find(|other| other.name == factor).expect("a factor of the study");
-    let values = values_over_range(factor.distribution(), points).expect("a distribution with bounds");
+    let values = factor.distribution().values_over_range(points).expect("a distribution with bounds");
     let swept = Swept { gap: figure.gap, factor, parameter, values };
     let lines: Vec<ComputedLine> = lines.iter().map(|line| swept.line(line)).collect();
     (swept.chart(&lines), swept.csv(&lines))
