@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::result::{IndexKind, Warning};
 use crate::run::Totals;
 use crate::study::{Study, StudyEffect};
-use crate::uncertainty::{EffectChecks, Estimate, Interval, IntervalMethod, differs_clearly};
+use crate::uncertainty::{EffectChecks, Estimate, IntervalMethod, differs_clearly};
 
 /// Returns warnings about the runs of an output.
 ///
@@ -204,7 +204,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
 /// Returns a warning of a noise that has no effect, or the whole effect.
 fn of_noise(name: &str, noise: &EffectIndices, mean_share: Option<Estimate>) -> Option<Warning> {
     let (factor, total) = (name.to_owned(), noise.estimates.total);
-    if total.estimate == 0.0 && total.interval.is_none_or(|Interval { low, high }| low == 0.0 && high == 0.0) {
+    if total.estimate == 0.0 {
         return Some(Warning::NoNoise { factor });
     }
     mean_share?.interval.is_some_and(|share| share.low <= 0.0).then_some(Warning::AllNoise { factor })

@@ -86,7 +86,7 @@ impl SurrogateEstimates {
 
     /// Returns the largest share of the variance that the surrogates may leave unexplained, over `points` base points.
     pub fn largest_rest(&self, points: u64) -> f64 {
-        let rest = (1.0 - self.explained).clamp(0.0, 1.0);
+        let rest = (1.0 - self.explained).clamp(EXACT, 1.0);
         rest + 4.0 * (rest / points as f64).sqrt()
     }
 

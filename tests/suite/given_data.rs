@@ -176,7 +176,7 @@ fn a_surrogate_adds_total_indices() {
     messages!().add_printed("--surrogate", &stdout(&run.output));
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert!(
-        csv.starts_with("output,input,rank,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
+        csv.starts_with("output,input,first_order,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
         "{csv}"
     );
 }

@@ -36,7 +36,7 @@ fn exact_measures_are_found_from_nets_and_random_rows() {
             let s1 = s1.estimate.estimate;
             let interval = found.estimate.interval.unwrap();
             assert!(interval.low < delta && delta < interval.high, "{sampler:?} {}: {found:?}", factor.input);
-            assert!(interval.high - interval.low < 0.08, "{sampler:?} {}: {found:?}", factor.input);
+            assert!(interval.high - interval.low < 0.1, "{sampler:?} {}: {found:?}", factor.input);
             assert!((s1 - first / 14.0).abs() < 0.04, "{sampler:?} {}: {s1}", factor.input);
             // Evenly spread rows are not independent draws, so permutations do not apply.
             assert_eq!(found.p_value.map(|p| p < 0.01), (sampler == Sampler::Random).then_some(true), "{sampler:?}");

@@ -84,7 +84,7 @@ fn an_input_that_is_not_read_has_no_effect() {
     }
     // It is read here, and its effect is below what the surrogate leaves unexplained.
     let read = indices(&formula("a + k*b^2 + 0*c", &factors, &sets(64, 1)))[2].total.interval.unwrap();
-    assert!(read.low == 0.0 && read.high > 0.0 && read.high < 1e-6, "{read:?}");
+    assert!(read.low == 0.0 && read.high > 0.0 && read.high < 1e-4, "{read:?}");
 }
 
 #[test]
