@@ -6,6 +6,8 @@
 use multiversion::multiversion;
 use rayon::prelude::*;
 
+use apportion_base::sum::product;
+
 /// Columns of a panel.
 pub const LANES: usize = 8;
 
@@ -403,20 +405,17 @@ fn left_over(solved: &[Lane], of: &[Lane], block: &mut [Lane; LANES]) {
 /// Factors a small symmetric matrix in place into its lower triangle; `false` if it is not positive definite.
 fn factor_block(block: &mut [Lane; LANES]) -> bool {
     for i in 0..LANES {
-        for j in 0..=i {
-            let mut sum = block[i][j];
-            for k in 0..j {
-                sum -= block[i][k] * block[j][k];
-            }
-            if j < i {
-                block[i][j] = sum / block[j][j];
-            } else if sum > 0.0 && sum.is_finite() {
-                block[i][i] = sum.sqrt();
-            } else {
-                return false;
-            }
+        let (done, rest) = block.split_at_mut(i);
+        let row = &mut rest[0];
+        for (j, earlier) in done.iter().enumerate() {
+            row[j] = (row[j] - product(&row[..j], &earlier[..j])) / earlier[j];
         }
-        block[i][i + 1..].fill(0.0);
+        let left = row[i] - product(&row[..i], &row[..i]);
+        if !(left > 0.0 && left.is_finite()) {
+            return false;
+        }
+        row[i] = left.sqrt();
+        row[i + 1..].fill(0.0);
     }
     true
 }

@@ -19,6 +19,9 @@ const FLAT: f64 = 0.9;
 /// Maximum number of trials along a direction.
 const TRIALS: usize = 20;
 
+/// A function that returns its value and its gradient.
+pub type Function<'a> = dyn FnMut(&[f64]) -> (f64, Vec<f64>) + 'a;
+
 /// Lower and upper bound of a variable.
 pub type Bounds = (f64, f64);
 
@@ -30,13 +33,8 @@ struct Place {
     gradient: Vec<f64>,
 }
 
-/// Minimises `function`, which returns its value and its gradient, from `start` on in at most `iterations` steps.
-pub fn minimise(
-    function: &mut dyn FnMut(&[f64]) -> (f64, Vec<f64>),
-    start: &[f64],
-    bounds: &[Bounds],
-    iterations: usize,
-) -> Vec<f64> {
+/// Minimises `function` from `start` on in at most `iterations` steps.
+pub fn minimise(function: &mut Function<'_>, start: &[f64], bounds: &[Bounds], iterations: usize) -> Vec<f64> {
     let mut evaluate = |x: Vec<f64>| {
         let (value, gradient) = function(&x);
         Place { x, value, gradient }

@@ -8,7 +8,7 @@ use super::linear::{Cholesky, HEIGHT, LANES, Lane, Panels, Symmetric, add, produ
 const MAX_COLUMNS: usize = 500;
 const COLUMNS_OF_ROW: f64 = 0.6;
 
-/// Rounds in which what is left orders the other columns anew, up to some number of rows.
+/// Rounds, each with the other columns in the order of what is left, up to some number of rows.
 const ROUNDS: usize = 4;
 const MAX_ROWS_OF_ROUNDS: usize = 600;
 
@@ -18,7 +18,7 @@ const LESS: f64 = 0.5;
 /// Mean square that is as good as none.
 const NOTHING: f64 = 1e-28;
 
-/// Share of its square that a column must keep beside those before it.
+/// Share of its square that a column must keep in addition to those before it.
 const INDEPENDENT: f64 = 1e-13;
 
 /// Columns orthonormalised in their order, in panels, and their triangle: column j of the matrix is the sum of the
@@ -198,7 +198,7 @@ fn columns_of(columns: &Panels) -> Vec<Vec<f64>> {
     (0..columns.columns).map(|j| columns.column(j).collect()).collect()
 }
 
-/// Returns the number of columns beside the constant that leave least on rows left out one by one, that mean square,
+/// Returns the number of columns that, with the constant, leave least on rows left out one by one, that mean square,
 /// and the residuals.
 fn fewest_left(basis: &Orthonormal, scores: &[f64], y: &[f64], most: usize) -> (usize, f64, Vec<f64>) {
     let n = y.len();
