@@ -9,7 +9,7 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::linear::{
-    Cholesky, HEIGHT, LANES, Lane, Panels, Symmetric, Tile, add, add_products, products, sums_of_squares,
+    Cholesky, HEIGHT, LANES, Lane, Panels, Symmetric, Tile, add, add_products, multiply, products, sums_of_squares,
 };
 
 /// Maximum number of factors in a term.
@@ -110,8 +110,8 @@ const START: Elementary = [ONE, NONE, NONE, NONE, NONE, NONE];
 fn extend(elementary: &mut Elementary, order: usize, of: &Tile) {
     for q in (1..=order).rev() {
         let (lower, upper) = elementary.split_at_mut(q);
-        for (row, (of, lower)) in upper[0].iter_mut().zip(of.iter().zip(&lower[q - 1])) {
-            add_products(row, of, lower);
+        for r in 0..HEIGHT {
+            add_products(&mut upper[0][r], &of[r], &lower[q - 1][r]);
         }
     }
 }
@@ -124,8 +124,8 @@ fn covariance_tile<const FIRST: usize>(functions: &[Panels], orders: &[f64], sca
     }
     let mut sums = [[CONSTANT; LANES]; HEIGHT];
     for (weight, of) in orders.iter().zip(&elementary[1..]) {
-        for (sums, of) in sums.iter_mut().zip(of) {
-            add(sums, *weight, of);
+        for r in 0..HEIGHT {
+            add(&mut sums[r], *weight, &of[r]);
         }
     }
     sums
@@ -186,9 +186,9 @@ fn at_panel(weights: &[f64], p: usize) -> Lane {
 #[inline(always)]
 fn departure<const FIRST: usize>(inverse: &Tile, rows: &Lane, lanes: &Lane, side: f64) -> Tile {
     let mut tile = *inverse;
-    for (r, row) in tile.iter_mut().enumerate() {
-        add(row, -rows[FIRST + r], lanes);
-        row.iter_mut().for_each(|value| *value *= side);
+    for r in 0..HEIGHT {
+        add(&mut tile[r], -rows[FIRST + r], lanes);
+        multiply(&mut tile[r], &[side; LANES]);
     }
     tile
 }
@@ -213,8 +213,8 @@ impl Pair<'_> {
             extend(&mut elementary, order, part);
         }
         for (sum, of) in sums.orders.iter_mut().zip(&elementary[1..]) {
-            for (outer, of) in outer.iter().zip(of) {
-                add_products(sum, outer, of);
+            for r in 0..HEIGHT {
+                add_products(sum, &outer[r], &of[r]);
             }
         }
         let mut rest = &mut sums.functions[..];
@@ -224,8 +224,8 @@ impl Pair<'_> {
             rest = others;
             for (sum, (a, b)) in own.iter_mut().zip(functions.panel(self.q).iter().zip(functions.panel(self.p))) {
                 let mut products = [0.0; LANES];
-                for (r, slope) in slope.iter().enumerate() {
-                    add(&mut products, a[FIRST + r], slope);
+                for r in 0..HEIGHT {
+                    add(&mut products, a[FIRST + r], &slope[r]);
                 }
                 add_products(sum, &products, b);
             }
@@ -240,14 +240,15 @@ fn slope(elementary: &Elementary, orders: &[f64], part: &Tile, outer: &Tile) -> 
     let (mut without, mut slope) = (ONE, [[orders[0]; LANES]; HEIGHT]);
     for (of, weight) in elementary[1..].iter().zip(&orders[1..]) {
         for r in 0..HEIGHT {
-            for (without, (of, part)) in without[r].iter_mut().zip(of[r].iter().zip(&part[r])) {
-                *without = of - part * *without;
-            }
+            multiply(&mut without[r], &part[r]);
+            let product = without[r];
+            without[r] = of[r];
+            add(&mut without[r], -1.0, &product);
             add(&mut slope[r], *weight, &without[r]);
         }
     }
-    for (slope, outer) in slope.iter_mut().flatten().zip(outer.iter().flatten()) {
-        *slope *= outer;
+    for r in 0..HEIGHT {
+        multiply(&mut slope[r], &outer[r]);
     }
     slope
 }

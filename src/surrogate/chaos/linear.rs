@@ -115,19 +115,30 @@ fn combine(panel: &[Lane], weights: &Lane, sums: &mut [f64]) {
     }
 }
 
-/// Adds `weight` times another row.
+/// Adds `weight` times another row. Loops over indices become single instructions, iterators here do not.
 #[inline(always)]
+#[allow(clippy::needless_range_loop)]
 pub fn add(row: &mut Lane, weight: f64, other: &Lane) {
-    for (value, other) in row.iter_mut().zip(other) {
-        *value += weight * other;
+    for l in 0..LANES {
+        row[l] += weight * other[l];
     }
 }
 
 /// Adds the products of two rows.
 #[inline(always)]
+#[allow(clippy::needless_range_loop)]
 pub fn add_products(row: &mut Lane, a: &Lane, b: &Lane) {
-    for (value, (a, b)) in row.iter_mut().zip(a.iter().zip(b)) {
-        *value += a * b;
+    for l in 0..LANES {
+        row[l] += a[l] * b[l];
+    }
+}
+
+/// Multiplies by another row.
+#[inline(always)]
+#[allow(clippy::needless_range_loop)]
+pub fn multiply(row: &mut Lane, by: &Lane) {
+    for l in 0..LANES {
+        row[l] *= by[l];
     }
 }
 
@@ -375,7 +386,8 @@ fn solve_panel(lower: &[[f64; HEIGHT]], stride: usize, first: usize, panel: &mut
             for s in 0..r {
                 add(&mut sums, -rows[start + s][r], &after[s]);
             }
-            after[r] = sums.map(|sum| sum / rows[start + r][r]);
+            multiply(&mut sums, &[1.0 / rows[start + r][r]; LANES]);
+            after[r] = sums;
         }
     }
 }

@@ -96,8 +96,8 @@ fn project(earlier: &[Lane], panel: &mut [Lane]) -> [Lane; LANES] {
     let weights: [Lane; LANES] = std::array::from_fn(|k| if k < HEIGHT { top[k] } else { bottom[k - HEIGHT] });
     for (row, q) in panel.iter_mut().zip(earlier) {
         let mut sums = *row;
-        for (q, weights) in q.iter().zip(&weights) {
-            add(&mut sums, -q, weights);
+        for k in 0..LANES {
+            add(&mut sums, -q[k], &weights[k]);
         }
         *row = sums;
     }
