@@ -141,7 +141,7 @@ pub fn surrogate_indices(
     };
     let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
     let job = Job { names: &names, coordinates: &coordinates, uses_columns: distributions.is_none() };
-    let outputs = outputs.iter().map(|output| Ok(job.output(&centred(&at_rows(output, &rows).values)?)));
+    let outputs = outputs.iter().map(|output| job.output(&at_rows(output, &rows).values));
     Ok(Surrogates {
         rows: rows.len(),
         folds: folds_at(rows.len()),
@@ -186,24 +186,26 @@ impl Fitted {
 }
 
 impl Job<'_> {
-    /// Computes the surrogate estimates of the centred outputs `z`.
-    fn output(&self, z: &[f64]) -> SurrogateOutput {
-        let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
-        let z: Vec<f64> = z.iter().map(|z| z / square.sqrt()).collect();
-        let mut best = self.fitted(&self.coordinates[0], &z);
+    /// Computes the surrogate estimates of the outputs `y`.
+    fn output(&self, y: &[f64]) -> Result<SurrogateOutput, NoVariance> {
+        let z = centred(y)?;
+        let sd = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
+        let offset = (y[0] - z[0]) / sd;
+        let z: Vec<f64> = z.iter().map(|z| z / sd).collect();
+        let mut best = self.fitted(&self.coordinates[0], &z, offset);
         for coordinates in &self.coordinates[1..] {
-            let fitted = self.fitted(coordinates, &z);
+            let fitted = self.fitted(coordinates, &z, offset);
             if fitted.unknown() < best.unknown() {
                 best = fitted;
             }
         }
-        estimates::surrogate_output(&best, self.names, self.uses_columns)
+        Ok(estimates::surrogate_output(&best, self.names, self.uses_columns))
     }
 
-    fn fitted(&self, Coordinates { families, values, name }: &Coordinates, z: &[f64]) -> Fitted {
+    fn fitted(&self, Coordinates { families, values, name }: &Coordinates, z: &[f64], offset: f64) -> Fitted {
         let degree = degree_at(z.len());
         let factors = families.par_iter().zip(values).map(|(family, values)| Factor::new(family, values, degree));
-        let chaos = Chaos::new(factors.collect(), z);
+        let chaos = Chaos::new(factors.collect(), z, offset);
         // Steps have no tails.
         let factors = &chaos.basis().factors;
         let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));

@@ -32,6 +32,11 @@ impl Factor {
         Self { family: family.clone(), places, polynomials, steps: Vec::new(), step_values: Vec::new() }
     }
 
+    /// Returns the factor without its steps.
+    pub fn without_steps(&self) -> Self {
+        Self { steps: Vec::new(), step_values: Vec::new(), ..self.clone() }
+    }
+
     /// Returns the number of polynomials.
     pub fn degree(&self) -> usize {
         self.polynomials.len()
@@ -124,15 +129,19 @@ impl Basis {
     }
 }
 
-/// Returns the functions of a factor at the nodes of a quadrature on panels that end at the steps and become narrow
-/// towards the ends, and its weights.
-fn by_quadrature(factor: &Factor) -> (Vec<Vec<f64>>, Vec<f64>) {
+/// Returns the functions of a factor at nodes, and weights of these that integrate under its distribution: on panels
+/// that end at the steps and become narrow towards the ends, or the rows of a column.
+pub fn integration(factor: &Factor) -> (Vec<Vec<f64>>, Vec<f64>) {
+    if matches!(factor.family, Family::Column(_)) {
+        let functions = factor.polynomials.iter().chain(&factor.step_values).cloned().collect();
+        return (functions, vec![1.0 / factor.places.len() as f64; factor.places.len()]);
+    }
     let mut ends = vec![0.0, 1.0];
-    ends.extend((2..40).flat_map(|k| [0.5f64.powi(k), 1.0 - 0.5f64.powi(k)]));
+    ends.extend((2..53).flat_map(|k| [0.5f64.powi(k), 1.0 - 0.5f64.powi(k)]));
     ends.extend(&factor.steps);
     ends.sort_by(f64::total_cmp);
     let (u, weights): (Vec<f64>, Vec<f64>) = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1])).unzip();
-    let mut functions = polynomials(&factor.family, &u, factor.degree());
+    let mut functions = if factor.degree() > 0 { polynomials(&factor.family, &u, factor.degree()) } else { Vec::new() };
     functions.truncate(factor.degree());
     functions.extend(factor.steps.iter().map(|at| factor.step(*at, &u)));
     (functions, weights)
@@ -153,13 +162,7 @@ impl Inner {
         if factor.steps.is_empty() {
             return Self { degree, steps: Vec::new() };
         }
-        let (functions, weights) = match &factor.family {
-            Family::Column(_) => {
-                let functions = factor.polynomials.iter().chain(&factor.step_values).cloned().collect();
-                (functions, vec![1.0 / factor.places.len() as f64; factor.places.len()])
-            }
-            _ => by_quadrature(factor),
-        };
+        let (functions, weights) = integration(factor);
         let steps = functions[degree..].iter().map(|step| {
             let weighted: Vec<f64> = step.iter().zip(&weights).map(|(s, w)| s * w).collect();
             functions.iter().map(|f| product(f, &weighted)).collect()

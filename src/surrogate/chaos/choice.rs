@@ -3,7 +3,9 @@
 use rayon::prelude::*;
 
 use super::basis::{Basis, Factor};
+use super::kernel::MAX_ORDER;
 use super::prior::Prior;
+use super::product::Product;
 use super::steps::add_steps;
 use super::ways::{EffectVariances, Fits, Listed, Way};
 use crate::surrogate::basis::Term;
@@ -17,6 +19,15 @@ const MAX_ROWS_OF_FOLDS: usize = 200;
 
 /// Share of the variance left on held-out rows above which steps are tried.
 const EXACT: f64 = 1e-5;
+
+/// The ratio of what a product leaves alone to what the best fit without it leaves, up to which it is tried as one term.
+const TRIED: f64 = 10.0;
+
+/// The ratio of what is left that counts as clearly less.
+const CLEARLY_LESS: f64 = 0.5;
+
+/// Errors of indices by rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Variance of a fit by dependent columns.
 const UNBOUNDED: f64 = 10.0;
@@ -34,12 +45,32 @@ pub(crate) struct Chaos {
 }
 
 impl Chaos {
-    /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows.
-    pub fn new(factors: Vec<Factor>, y: &[f64]) -> Self {
-        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len() }, y.to_vec()));
-        let mut chosen = if best.rest > EXACT { best.or_with_steps() } else { best };
-        chosen.correct();
+    /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows. The sum of `y` and `offset` may have one sign.
+    pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
+        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len() }, y.to_vec(), MAX_ORDER), None);
+        let mut chosen = if best.rest > EXACT { best.or_with_steps().or_with_product(y, offset) } else { best };
+        chosen.correct(y);
         chosen
+    }
+
+    /// Returns the fit with a product as one term, if it leaves less.
+    fn or_with_product(self, y: &[f64], offset: f64) -> Self {
+        let basis = Basis { factors: self.basis().factors.iter().map(Factor::without_steps).collect(), rows: y.len() };
+        let rows = basis.rows.min(self.listed.prior.rows);
+        let Some(product) = Product::new(&basis, &y[..rows], offset, |prior| {
+            let listed = Listed::new(prior);
+            let way = Held::new(&listed, None).way;
+            (listed, way)
+        }) else {
+            return self;
+        };
+        if product.scale() * product.scale() > TRIED * self.rest {
+            return self;
+        }
+        let mut left = product.left(&(0..rows).collect::<Vec<usize>>());
+        left.resize(y.len(), 0.0);
+        let other = Self::chosen(Prior::new(basis, left, MAX_ORDER), Some(&product));
+        if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
     }
 
     /// Returns the fit with steps, if there are any and they leave less.
@@ -49,7 +80,7 @@ impl Chaos {
         if prior.steps.is_empty() {
             return self;
         }
-        let mut other = Self::chosen(prior);
+        let mut other = Self::chosen(prior, None);
         other.half_width += other.open_at_steps();
         if other.half_width < self.half_width { other } else { self }
     }
@@ -78,8 +109,8 @@ impl Chaos {
     }
 
     /// Corrects the variances by the rows to which the expansion g is not fitted: the part 2 Cov(g_u, f - g) of each.
-    fn correct(&mut self) {
-        let Prior { basis, y, rows, .. } = &self.listed.prior;
+    fn correct(&mut self, y: &[f64]) {
+        let Prior { basis, rows, .. } = &self.listed.prior;
         let others = *rows..basis.rows;
         if others.is_empty() {
             return;
@@ -100,42 +131,15 @@ impl Chaos {
         self.variances = variances;
     }
 
-    fn chosen(prior: Prior) -> Self {
+    fn chosen(prior: Prior, product: Option<&Product>) -> Self {
         let listed = Listed::new(prior);
-        let rows = listed.prior.rows;
-        let folds = folds_at(rows);
-        let fold_of = folds_of_rows(rows, folds);
-        // The last one leaves out none.
-        let mut all: Vec<(Vec<usize>, Fits)> = (0..=folds)
-            .into_par_iter()
-            .map(|fold| {
-                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| fold_of[*row] == fold);
-                let fits = listed.fits(&fitted, &out);
-                (out, fits)
-            })
-            .collect();
-        let mut rests = [0.0; Way::ALL.len()];
-        for (out, fits) in &all {
-            for (rest, fit) in rests.iter_mut().zip(&fits.of_ways) {
-                let squares = out.iter().zip(&fit.predictions).map(|(row, g)| (listed.prior.y[*row] - g).powi(2));
-                *rest += squares.sum::<f64>() / rows as f64;
-            }
-        }
-        let (_, Fits { mut of_ways, left }) = all.swap_remove(folds);
-        let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
-        if listed.variances(&of_ways[3].coefficients).all > UNBOUNDED {
-            rests[3] = f64::INFINITY;
-        } else if left < 0.01 * least {
-            // Exact: all rows determine terms that those of the folds did not.
-            rests[3] = least;
-        }
-        let mut way = 3;
-        for k in (0..3).rev() {
-            way = if rests[k] < rests[way] { k } else { way };
-        }
-        let coefficients = of_ways.swap_remove(way).coefficients;
-        let (rest, variances) = (rests[way], listed.variances(&coefficients));
-        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt();
+        let Held { coefficients, rest, .. } = Held::new(&listed, product);
+        let (variances, coefficients) = match product {
+            Some(product) => product.joined(&listed, &coefficients),
+            None => (listed.variances(&coefficients), coefficients),
+        };
+        let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
+        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + ROUNDING;
         Self { listed, coefficients, variances, rest, half_width }
     }
 
@@ -145,6 +149,53 @@ impl Chaos {
         let EffectVariances { first_order, total, all } = &self.variances;
         let first_order = first_order.iter().map(|v| v / (all + self.rest)).collect();
         (first_order, total.iter().map(|v| v / (all + self.rest * self.rest)).collect())
+    }
+}
+
+/// The way that leaves least of held-out rows.
+struct Held {
+    way: usize,
+    coefficients: Vec<f64>,
+    /// Mean square that it leaves.
+    rest: f64,
+}
+
+impl Held {
+    /// Chooses among the ways to the coefficients of `listed`, of what a `product` fitted to the same rows leaves.
+    fn new(listed: &Listed, product: Option<&Product>) -> Self {
+        let rows = listed.prior.rows;
+        let folds = folds_at(rows);
+        let fold_of = folds_of_rows(rows, folds);
+        // The last one leaves out none.
+        let mut all: Vec<(Fits, Vec<f64>)> = (0..=folds)
+            .into_par_iter()
+            .map(|fold| {
+                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| fold_of[*row] == fold);
+                let left = product.map(|product| product.left(&fitted));
+                let y = left.as_ref().unwrap_or(&listed.prior.y);
+                let fits = listed.fits(&fitted, &out, y);
+                let squares = fits.of_ways.iter().map(|fit| {
+                    out.iter().zip(&fit.predictions).map(|(row, g)| (y[*row] - g).powi(2)).sum::<f64>() / rows as f64
+                });
+                let squares = squares.collect();
+                (fits, squares)
+            })
+            .collect();
+        let mut rests = vec![0.0; Way::ALL.len()];
+        for (_, squares) in &all {
+            add_scaled(&mut rests, 1.0, squares);
+        }
+        let (Fits { mut of_ways, left }, _) = all.swap_remove(folds);
+        let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = rests.len() - 1;
+        if listed.variances(&of_ways[last].coefficients).all > UNBOUNDED {
+            rests[last] = f64::INFINITY;
+        } else if left < 0.01 * least {
+            // Exact: all rows determine terms that those of the folds did not.
+            rests[last] = least;
+        }
+        let way = (0..last).rev().fold(last, |best, way| if rests[way] < rests[best] { way } else { best });
+        Self { way, coefficients: of_ways.swap_remove(way).coefficients, rest: rests[way] }
     }
 }
 

@@ -4,7 +4,7 @@
 //! exp(-alpha_i (k - 1) + gamma_i [k even]) k^-beta and of sum 1. A step has its own l.
 
 use super::basis::Basis;
-use super::kernel::{Kernel, MAX_ORDER, Variances};
+use super::kernel::{Kernel, Variances};
 use super::linear::{Cholesky, Symmetric};
 use super::optimise::{Bounds, minimise};
 use crate::surrogate::basis::Term;
@@ -42,9 +42,9 @@ pub struct Prior {
 }
 
 impl Prior {
-    /// Fits the hyperparameters.
-    pub fn new(basis: Basis, y: Vec<f64>) -> Self {
-        let order = MAX_ORDER.min(basis.factors.len());
+    /// Fits the hyperparameters of terms of at most `order` factors.
+    pub fn new(basis: Basis, y: Vec<f64>, order: usize) -> Self {
+        let order = order.min(basis.factors.len());
         let rows = basis.rows.min(MAX_ROWS);
         let mut prior = Self { basis, y, rows, order, theta: Vec::new(), steps: Vec::new() };
         let kernel = prior.basis.kernel(rows.min(FITTED_ROWS), FITTED_DEGREE);

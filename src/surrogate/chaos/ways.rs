@@ -132,9 +132,9 @@ impl Listed {
         self.prior.rows <= MAX_ROWS_OF_COVARIANCE
     }
 
-    /// Returns the fits to `rows`, with their predictions at the rows `out`.
-    pub fn fits(&self, rows: &[usize], out: &[usize]) -> Fits {
-        let y: Vec<f64> = rows.iter().map(|row| self.prior.y[*row]).collect();
+    /// Returns the fits to the outputs `y` at `rows`, with their predictions at the rows `out`.
+    pub fn fits(&self, rows: &[usize], out: &[usize], y: &[f64]) -> Fits {
+        let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
         let columns = at_rows(&self.columns, rows);
         let mut fits =
             if self.is_small() { self.by_covariance(&columns, &y, rows, out) } else { self.by_gram(&columns, &y, out) };
@@ -150,9 +150,14 @@ impl Listed {
         Fits { of_ways: fits, left: squares.left }
     }
 
-    /// Returns the sum of the terms at some rows.
+    /// Returns the sum of the terms at the rows.
+    pub fn combined(&self, coefficients: &[f64]) -> Vec<f64> {
+        self.columns.combined(coefficients)
+    }
+
+    /// Returns the same at some of them.
     fn predicted(&self, coefficients: &[f64], rows: &[usize]) -> Vec<f64> {
-        let all = self.columns.combined(coefficients);
+        let all = self.combined(coefficients);
         rows.iter().map(|row| all[*row]).collect()
     }
 

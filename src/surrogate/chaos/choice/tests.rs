@@ -17,7 +17,7 @@ fn fitted(factors: usize, rows: usize, family: &Family, f: impl Fn(&[f64]) -> f6
     let mean = apportion_base::sum::mean(&values);
     let sd = (values.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / rows as f64).sqrt();
     let y: Vec<f64> = values.iter().map(|y| (y - mean) / sd).collect();
-    Chaos::new(columns.iter().map(|u| Factor::new(family, u, degree_at(rows))).collect(), &y)
+    Chaos::new(columns.iter().map(|u| Factor::new(family, u, degree_at(rows))).collect(), &y, mean / sd)
 }
 
 /// Returns the largest error of the indices.
@@ -63,6 +63,29 @@ fn a_step_is_one_function() {
         let error = error(&of, &first_order, &total);
         assert!(error < limit && error < of.half_width, "{rows}: {error:e} {:e}", of.half_width);
     }
+}
+
+#[test]
+fn a_product_is_one_term() {
+    // 256^x1 (1/5 + x2^2)^3 + x3.
+    let powers = |u: &[f64]| libm::pow(4.0, 4.0 * u[0]) * (0.2 + u[1] * u[1]).powi(3);
+    let of = fitted(3, 64, &Family::Legendre, |u| powers(u) + u[2]);
+    let integral = |p: f64| (libm::exp(p * libm::log(4.0)) - 1.0) / (p * libm::log(4.0));
+    let (m1, q1) = (integral(4.0), integral(8.0));
+    let moment = |power: i32| {
+        (0..=power)
+            .map(|k| {
+                let binomial = (0..k).fold(1.0, |b, j| b * f64::from(power - j) / f64::from(j + 1));
+                binomial * 0.2f64.powi(power - k) / f64::from(2 * k + 1)
+            })
+            .sum::<f64>()
+    };
+    let (m2, q2) = (moment(3), moment(6));
+    let (v1, v2) = ((q1 - m1 * m1) * m2 * m2, m1 * m1 * (q2 - m2 * m2));
+    let (both, third) = ((q1 - m1 * m1) * (q2 - m2 * m2), 1.0 / 12.0);
+    let all = v1 + v2 + both + third;
+    let error = error(&of, &[v1 / all, v2 / all, third / all], &[(v1 + both) / all, (v2 + both) / all, third / all]);
+    assert!(error < 1e-4 && error < of.half_width, "{error:e} {:e}", of.half_width);
 }
 
 #[test]
