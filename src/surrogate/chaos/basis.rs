@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::kernel::Kernel;
 use super::linear::{LANES, Panels};
+use crate::space::Distribution;
 use crate::surrogate::family::{Family, polynomials};
 use crate::surrogate::orthogonal::rule;
 use apportion_base::sum::product;
@@ -140,7 +141,8 @@ pub fn integration(factor: &Factor) -> (Vec<Vec<f64>>, Vec<f64>) {
     ends.extend((2..53).flat_map(|k| [0.5f64.powi(k), 1.0 - 0.5f64.powi(k)]));
     ends.extend(&factor.steps);
     ends.sort_by(f64::total_cmp);
-    let (u, weights): (Vec<f64>, Vec<f64>) = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1])).unzip();
+    let nodes = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1]));
+    let (u, weights): (Vec<f64>, Vec<f64>) = nodes.map(|(u, weight)| (u.min(Distribution::LARGEST_U), weight)).unzip();
     let mut functions = if factor.degree() > 0 { polynomials(&factor.family, &u, factor.degree()) } else { Vec::new() };
     functions.truncate(factor.degree());
     functions.extend(factor.steps.iter().map(|at| factor.step(*at, &u)));

@@ -1,5 +1,4 @@
 use super::*;
-use crate::space::Distribution;
 
 #[test]
 fn inner_products_with_steps_are_integrals() {
@@ -25,4 +24,12 @@ fn steps_of_a_column_have_mean_0_in_it() {
     assert!(step.iter().sum::<f64>().abs() < 1e-12 && (step.iter().map(|s| s * s).sum::<f64>() - 8.0).abs() < 1e-12);
     let levels = Distribution::discrete(&[1.0, 2.0, 7.0], None).unwrap();
     assert!(factor.may_have_steps() && !Factor::new(&Family::new(&levels), &x, 3).may_have_steps());
+}
+
+#[test]
+fn integrals_of_normal_factors_reach_far_out() {
+    let (functions, weights) = integration(&Factor::new(&Family::Hermite, &[0.1, 0.6], 8));
+    // E exp(z) z = sqrt(e).
+    let sum: f64 = functions[0].iter().zip(&weights).map(|(z, w)| libm::exp(*z) * z * w).sum();
+    assert!((sum - libm::exp(0.5)).abs() < 1e-9, "{sum}");
 }
