@@ -26,6 +26,9 @@ const TRIED: f64 = 10.0;
 /// The ratio of what is left that counts as clearly less.
 const CLEARLY_LESS: f64 = 0.5;
 
+/// Share of the variance that no rows show that counts as unknown, for each unit of the residual's standard deviation.
+const CLOSE: f64 = 10.0;
+
 /// Errors of indices by rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -139,7 +142,10 @@ impl Chaos {
             None => (listed.variances(&coefficients), coefficients),
         };
         let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
-        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + ROUNDING;
+        // A close fit is right where there are no rows too.
+        let share = (CLOSE * rest.sqrt()).min(1.0);
+        let unseen = if product.is_some() { 0.0 } else { share * listed.unseen(&coefficients) };
+        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + ROUNDING;
         Self { listed, coefficients, variances, rest, half_width }
     }
 

@@ -36,6 +36,9 @@ const MAX_TERMS: usize = 800;
 const ROWS_OF_TERM: usize = 2;
 const MAX_TERMS_OF_GRAM: usize = 600;
 
+/// Standard errors of a mean over the rows that are chance.
+const CHANCE: f64 = 1.0;
+
 /// The way of every update of the variances.
 const PLAN: [Way; 6] = [Way::Prior, Way::Subsets, Way::Subsets, Way::Subsets, Way::Terms, Way::Terms];
 
@@ -237,22 +240,46 @@ impl Listed {
     /// Returns the variances of the expansion with these coefficients.
     pub fn variances(&self, coefficients: &[f64]) -> EffectVariances {
         let mut variances = EffectVariances::zeros(self.prior.basis.factors.len());
+        for members in self.members(coefficients) {
+            variances.add(&self.terms[members[0]], self.variance(&members, coefficients));
+        }
+        variances
+    }
+
+    /// Returns the terms of every subset of factors that have coefficients.
+    fn members(&self, coefficients: &[f64]) -> Vec<Vec<usize>> {
         let mut of_subsets: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (j, subset) in self.subsets.iter().enumerate().filter(|(j, _)| coefficients[*j] != 0.0) {
             of_subsets.entry(*subset).or_default().push(j);
         }
-        for members in of_subsets.values() {
-            let term = &self.terms[members[0]];
-            let mut variance = 0.0;
-            for (place, &a) in members.iter().enumerate() {
-                variance += coefficients[a] * coefficients[a] * self.inner(a, a);
-                for &b in &members[..place] {
-                    variance += 2.0 * coefficients[a] * coefficients[b] * self.inner(a, b);
-                }
+        of_subsets.into_values().collect()
+    }
+
+    /// Returns the variance of some terms of one subset.
+    fn variance(&self, members: &[usize], coefficients: &[f64]) -> f64 {
+        let mut variance = 0.0;
+        for (place, &a) in members.iter().enumerate() {
+            variance += coefficients[a] * coefficients[a] * self.inner(a, a);
+            for &b in &members[..place] {
+                variance += 2.0 * coefficients[a] * coefficients[b] * self.inner(a, b);
             }
-            variances.add(term, variance);
         }
-        variances
+        variance
+    }
+
+    /// Returns the variance that no rows show: of each subset of factors what exceeds the mean square of its terms at
+    /// the rows by more than chance. It comes from where there are none.
+    pub fn unseen(&self, coefficients: &[f64]) -> f64 {
+        let rows = self.prior.rows as f64;
+        let of_subsets = self.members(coefficients).into_par_iter().map(|members| {
+            let mut of_subset = vec![0.0; coefficients.len()];
+            members.iter().for_each(|j| of_subset[*j] = coefficients[*j]);
+            let squares: Vec<f64> = self.combined(&of_subset).iter().map(|g| g * g).collect();
+            let mean = squares.iter().sum::<f64>() / rows;
+            let spread = squares.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / rows;
+            (self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt()).max(0.0)
+        });
+        of_subsets.collect::<Vec<f64>>().iter().sum()
     }
 
     /// Returns the inner product of two terms of the same factors.
