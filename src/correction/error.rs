@@ -167,7 +167,7 @@ impl CorrectionError {
 }
 
 /// Returns the contributions of the points of every net as influences of up to 64 parts of each.
-pub fn in_parts(nets: &[Vec<f64>]) -> PartInfluences {
+pub(super) fn in_parts(nets: &[Vec<f64>]) -> PartInfluences {
     nets.iter().map(|points| means_of_parts(points)).collect()
 }
 

@@ -14,7 +14,7 @@ mod nets;
 mod replace;
 mod surrogate_use;
 
-pub use error::{CorrectionError, in_parts};
+pub use error::CorrectionError;
 pub use estimates::{ErrorShares, SurrogateEstimates};
 pub use influenced::EstimateWithInfluences;
 pub(crate) use low_fidelity::{IndependentOutputs, LowFidelityOutputs, low_fidelity_estimates};

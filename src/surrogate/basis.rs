@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::family::{Family, MAX_DEGREES};
+use super::family::Family;
 
 /// Maximum number of factors in a term of the first candidates.
 const MAX_FACTORS: usize = 3;
@@ -51,7 +51,7 @@ impl<'a> Caps<'a> {
     /// Returns the largest sum of degrees of a term with this number of factors.
     pub fn degree_of(factors: usize) -> usize {
         match factors {
-            0..=4 => MAX_DEGREES,
+            0..=4 => 14,
             5..=10 => 10,
             _ => 6,
         }

@@ -90,7 +90,7 @@ impl Family {
 }
 
 /// Maximum degree of any polynomial.
-pub(crate) const MAX_DEGREES: usize = 14;
+pub(crate) const MAX_DEGREES: usize = 30;
 
 /// The place of a step or a kink of an output in a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -190,7 +190,7 @@ impl Knotted {
 /// quantiles of the factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
-        Family::Orthogonal(polynomials) => polynomials.columns(u),
+        Family::Orthogonal(polynomials) => polynomials.columns(u, degree),
         Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
         Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Replaced { by, .. } => polynomials(by, u, degree),

@@ -1,6 +1,7 @@
 //! Surrogates: sparse polynomial chaos expansions, fitted to the runs of all nets but one.
 
 pub(crate) mod basis;
+pub(crate) mod chaos;
 mod choice;
 mod cross_fit;
 pub(crate) mod extrapolation;

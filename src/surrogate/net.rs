@@ -61,7 +61,8 @@ impl Net {
         }
     }
 
-    /// Creates a net of plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
+    /// Creates a net of plain rows for tests, one run of one matrix: `columns` has a column for each factor and degree from 1.
+    #[cfg(test)]
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
         let places = vec![(0..factors).collect()];

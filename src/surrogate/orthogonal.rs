@@ -152,11 +152,11 @@ impl OrthogonalPolynomials {
         self.distribution.levels().is_some()
     }
 
-    /// Returns the polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
-    pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
+    /// Returns the polynomials of degree 1, 2, ... and at most `degree` at the quantiles of `u`, a column for each.
+    pub fn columns(&self, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];
         self.distribution.fill(u, &mut x);
-        self.recurrence.columns(&x, self.degree())
+        self.recurrence.columns(&x, degree)
     }
 
     /// Returns the same at the quantiles of 1 - `v`, to full precision if `v` is small.

@@ -7,7 +7,7 @@ use crate::given::Column;
 use crate::given::order::Order;
 use crate::space::Distribution;
 use crate::surrogate::family::Family;
-use crate::surrogate::{Trial, trials};
+use crate::surrogate::trials;
 use apportion_base::sum::{range, rescaled};
 
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
@@ -28,7 +28,7 @@ const STEP: f64 = 1e-9;
 /// A set of variables, and the polynomials of every input in these.
 pub(super) struct Coordinates {
     /// The polynomials.
-    pub trial: Trial,
+    pub families: Vec<Family>,
     /// The variable of every input at every row.
     pub values: Vec<Vec<f64>>,
     /// A name of the variables.
@@ -57,7 +57,7 @@ impl Coordinates {
     /// Creates those whose distributions are those of their `values`.
     fn new(name: &'static str, values: Vec<Vec<f64>>) -> Self {
         let families = values.iter().map(|x| Family::of_column(x)).collect();
-        Self { trial: Trial { families, unbounded_degree: 0, ratio: 1.0 }, values, name }
+        Self { families, values, name }
     }
 }
 
@@ -98,8 +98,14 @@ pub(super) fn of_distributions(
     }
     let values: Vec<Vec<f64>> = quantiles.into_iter().flatten().collect();
     let families: Vec<Family> = distributions.iter().map(Family::new).collect();
-    let trials = trials(&families).into_iter();
-    Ok(trials.map(|trial| Coordinates { trial, values: values.clone(), name: "the given distributions" }).collect())
+    let mut all: Vec<Vec<Family>> = Vec::new();
+    for trial in trials(&families) {
+        if !all.contains(&trial.families) {
+            all.push(trial.families);
+        }
+    }
+    let all = all.into_iter();
+    Ok(all.map(|families| Coordinates { families, values: values.clone(), name: "the given distributions" }).collect())
 }
 
 /// Returns the probability of values below each of `values`, plus half of that of the value itself; `None` if they do

@@ -11,35 +11,51 @@
 //! the derivative of V_u by the distribution of each input (von Mises 1947). Both conditional means consist of terms
 //! that differ only in the degree of one input.
 
-use super::contributions::{Contributions, To};
+use crate::surrogate::chaos::Basis;
 use crate::surrogate::extrapolation::groups;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::gram::add_scaled;
-use crate::surrogate::net::Net;
 
-/// Adds these influences of the rows of a fold to those of its contributions.
-pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contributions) {
-    let mut values = Vec::new();
-    for ((input, others), group) in groups(expansion) {
-        let mut sums = vec![0.0; net.points()];
-        for &(degree, b) in &group.coefficients {
-            net.fill(&vec![(input, degree)], 0, &mut values);
-            add_scaled(&mut sums, b, &values);
+/// The influence of every row on the variances of an expansion.
+pub(super) struct Influences {
+    pub variance: Vec<f64>,
+    /// Those on V S of each input.
+    pub first_order: Vec<Vec<f64>>,
+    /// Those on V ST of each input.
+    pub total: Vec<Vec<f64>>,
+}
+
+impl Influences {
+    fn zeros(inputs: usize, rows: usize) -> Self {
+        let none = vec![0.0; rows];
+        Self { variance: none.clone(), first_order: vec![none.clone(); inputs], total: vec![none; inputs] }
+    }
+
+    /// Computes them for an expansion in the functions of `basis`.
+    pub fn new(basis: &Basis, expansion: &Expansion) -> Self {
+        let mut all = Self::zeros(basis.factors.len(), basis.rows);
+        for ((input, others), group) in groups(expansion) {
+            let mut sums = vec![0.0; basis.rows];
+            for &(degree, b) in &group.coefficients {
+                add_scaled(&mut sums, b, &basis.values(&[(input, degree)], 0..basis.rows));
+            }
+            let variance: f64 = group.coefficients.iter().map(|(_, b)| b * b).sum();
+            let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
+            let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.offset * h).collect();
+            for more in [&squares, &products] {
+                add_scaled(&mut all.variance, 1.0, more);
+                for (other, _) in &others {
+                    add_scaled(&mut all.total[*other], 1.0, more);
+                }
+            }
+            add_scaled(&mut all.total[input], 1.0, &squares);
+            match others[..] {
+                [] => add_scaled(&mut all.first_order[input], 1.0, &squares),
+                [(other, _)] => add_scaled(&mut all.first_order[other], 1.0, &products),
+                _ => {}
+            }
         }
-        let variance: f64 = group.coefficients.iter().map(|(_, b)| b * b).sum();
-        let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
-        let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.offset * h).collect();
-        let both: Vec<f64> = squares.iter().zip(&products).map(|(a, b)| a + b).collect();
-        contributions.to(To::Variance).move_by(&both);
-        contributions.to(To::Total(input)).move_by(&squares);
-        for (other, _) in &others {
-            contributions.to(To::Total(*other)).move_by(&both);
-        }
-        match others[..] {
-            [] => contributions.to(To::FirstOrder(input)).move_by(&squares),
-            [(other, _)] => contributions.to(To::FirstOrder(other)).move_by(&products),
-            _ => {}
-        }
+        all
     }
 }
 

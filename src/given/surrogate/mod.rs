@@ -1,16 +1,12 @@
 //! First-order and total indices from given data by a surrogate.
 //!
-//! The rows are divided into folds. A sparse polynomial chaos expansion fitted to all folds but one has exact indices
-//! (Sudret 2008, Reliab. Eng. Syst. Saf. 93, 964-979), and the rows of that one correct its error, as far as rows of a
-//! table can ([`contributions`]). The remaining error is bounded by the variance of the residual, and is included in
-//! the upper end of every interval.
+//! A polynomial chaos expansion fitted to the rows ([`crate::surrogate::chaos`]) has exact indices (Sudret 2008, Reliab.
+//! Eng. Syst. Saf. 93, 964-979). What it leaves of held-out rows bounds their error.
 
-mod contributions;
 mod coordinates;
 mod estimates;
 mod marginals;
 
-use contributions::{Contributions, FoldSums};
 use coordinates::Coordinates;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -19,16 +15,12 @@ use thiserror::Error;
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
-use crate::surrogate::basis::Caps;
+use crate::surrogate::NamedTerm;
+use crate::surrogate::chaos::{Chaos, Factor, degree_at, folds_at};
 use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::family::polynomials;
 use crate::surrogate::fit::Expansion;
-use crate::surrogate::net::Net;
-use crate::surrogate::{Effects, NamedTerm, cross_fitted, leading_terms};
+use crate::surrogate::{Effects, leading_terms};
 use crate::uncertainty::Estimate;
-
-/// Parts of the table, each of which is corrected by an expansion of the others.
-const FOLDS: usize = 8;
 
 /// Maximum number of rows that are used.
 const MAX_ROWS: usize = 1 << 16;
@@ -116,15 +108,14 @@ pub struct SurrogateIndices {
     pub total: Estimate,
 }
 
-/// Estimates first-order and total Sobol' indices of every output of a table by surrogates, cross-fitted and corrected.
+/// Estimates first-order and total Sobol' indices of every output of a table by surrogates.
 ///
 /// `inputs` and `outputs` are the columns from which `indices` were estimated. `distributions` has one entry per input,
 /// or is `None`: then the distributions are those of the columns, and the intervals include their error. They are
 /// needed for high accuracy: from n random rows of unknown distributions no index has an error below about 1/sqrt(n).
 ///
-/// Estimates are those of the surrogates (Sudret 2008), with the correction that is linear in their residuals. The part
-/// that is quadratic in these is between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends
-/// of the 95 % intervals. The intervals assume independent rows, and are too wide for points that are more even.
+/// Estimates are those of the surrogates (Sudret 2008). With r the share of the variance that they leave of n held-out
+/// rows, half the width of the 95 % intervals is r + 4 sqrt(r/n), which holds for independent rows and for Sobol' points.
 ///
 /// # Errors
 /// [`SurrogateRefusal`]: inputs that depend on each other, a number of distributions other than that of inputs, a
@@ -148,114 +139,82 @@ pub fn surrogate_indices(
         Some(list) => coordinates::of_distributions(&inputs, &orders, list)?,
         None => coordinates::of_columns(&inputs, &orders),
     };
-    let folds: Vec<usize> = rows.iter().map(Vec::len).collect();
     let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-    let job = Job { names: &names, coordinates: &coordinates, folds: &folds, uses_columns: distributions.is_none() };
-    let outputs = outputs.iter().map(|output| Ok(job.output(&centred(&at_rows(output, &rows).values)?)));
+    let job = Job { names: &names, coordinates: &coordinates, uses_columns: distributions.is_none() };
+    let outputs = outputs.iter().map(|output| job.output(&at_rows(output, &rows).values));
     Ok(Surrogates {
-        rows: folds.iter().sum(),
-        folds: FOLDS,
+        rows: rows.len(),
+        folds: folds_at(rows.len()),
         given_distributions: distributions.is_some(),
         outputs: outputs.collect(),
     })
 }
 
-fn at_rows(column: &Column, folds: &[Vec<usize>]) -> Column {
-    let values = folds.iter().flatten().map(|&row| column.values[row]).collect();
-    Column { name: column.name.clone(), values }
+fn at_rows(column: &Column, rows: &[usize]) -> Column {
+    Column { name: column.name.clone(), values: rows.iter().map(|&row| column.values[row]).collect() }
 }
 
-/// Returns the indices of the rows of every fold, each in rising order. They are assigned at random, but always in the
-/// same way: rows of Sobol' points at equal distances in their order fill only a part of the space.
-fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
-    let most = MAX_ROWS.min(MAX_VALUES / (inputs * Caps::degree_of(inputs))).max(super::MIN_ROWS);
-    let all = drawn_rows(rows, most, 0);
-    let mut folds = vec![Vec::new(); FOLDS];
-    for (place, row) in all.into_iter().enumerate() {
-        folds[place % FOLDS].push(row);
-    }
-    folds.iter_mut().for_each(|fold| fold.sort_unstable());
-    folds
+/// Returns the indices of the rows, in random order, but always in the same: the first ones must be like all.
+fn used_rows(rows: usize, inputs: usize) -> Vec<usize> {
+    let most = MAX_ROWS.min(MAX_VALUES / (inputs * degree_at(rows))).max(super::MIN_ROWS);
+    drawn_rows(rows, most, 0)
 }
 
 /// The table, shared by all outputs.
 struct Job<'a> {
     /// The names of the inputs.
     names: &'a [&'a str],
-    /// The trials, at least one.
+    /// The variables and polynomials to try, at least one.
     coordinates: &'a [Coordinates],
-    /// Rows of every fold.
-    folds: &'a [usize],
     /// Whether the distributions are those of the columns.
     uses_columns: bool,
 }
 
-/// Every fold, corrected by an expansion of the others.
+/// A fit, and the error of its indices that no rows show.
 struct Fitted {
-    folds: Vec<FoldSums>,
-    expansions: Vec<Expansion>,
+    chaos: Chaos,
+    expansion: Expansion,
     extrapolation: ExtrapolationError,
     polynomials_of: &'static str,
 }
 
 impl Fitted {
-    /// Returns the mean square residual plus the error that no rows show.
+    /// Returns the share of the variance that is left plus the error that no rows show.
     fn unknown(&self) -> f64 {
-        left_square(&self.folds) + self.extrapolation.variance
+        self.chaos.rest + self.extrapolation.variance
     }
-}
-
-/// Returns the mean square residual of expansions.
-fn left_square(folds: &[FoldSums]) -> f64 {
-    let rows: usize = folds.iter().map(|fold| fold.rows).sum();
-    folds.iter().map(|fold| fold.residual_square).sum::<f64>() / rows as f64
 }
 
 impl Job<'_> {
-    /// Computes the surrogate estimates of the centred outputs `z`.
-    fn output(&self, z: &[f64]) -> SurrogateOutput {
-        let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
-        let z: Vec<f64> = z.iter().map(|z| z / square.sqrt()).collect();
-        let mut best = self.fitted(&self.coordinates[0], &z);
+    /// Computes the surrogate estimates of the outputs `y`.
+    fn output(&self, y: &[f64]) -> Result<SurrogateOutput, NoVariance> {
+        let z = centred(y)?;
+        let sd = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
+        let offset = (y[0] - z[0]) / sd;
+        let z: Vec<f64> = z.iter().map(|z| z / sd).collect();
+        let mut best = self.fitted(&self.coordinates[0], &z, offset);
         for coordinates in &self.coordinates[1..] {
-            let fitted = self.fitted(coordinates, &z);
-            if fitted.unknown() < coordinates.trial.ratio * best.unknown() {
+            let fitted = self.fitted(coordinates, &z, offset);
+            if fitted.unknown() < best.unknown() {
                 best = fitted;
             }
         }
-        estimates::surrogate_output(&best, self.names)
+        Ok(estimates::surrogate_output(&best, self.names, self.uses_columns))
     }
 
-    fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {
-        let caps = Caps::new(&coordinates.trial.families, coordinates.trial.unbounded_degree);
-        let nets = self.nets(coordinates, caps, z);
-        let expansions = cross_fitted(&nets, caps);
-        let folds = nets.par_iter().zip(&expansions).map(|(net, expansion)| {
-            let mut contributions = Contributions::new(net, expansion);
-            if self.uses_columns {
-                marginals::add(net, expansion, &mut contributions);
-            }
-            contributions.in_parts()
-        });
-        let folds: Vec<FoldSums> = folds.collect();
-        let rows = self.folds.iter().sum::<usize>() as u64;
-        let effects = Effects { swaps: (0..caps.families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
-        let extrapolation = ExtrapolationError::new(&expansions, caps.families, rows, left_square(&folds), &effects);
-        Fitted { folds, expansions, extrapolation, polynomials_of: coordinates.name }
-    }
-
-    /// Returns every fold with its rows of the outputs `z`.
-    fn nets(&self, coordinates: &Coordinates, caps: Caps<'_>, z: &[f64]) -> Vec<Net> {
-        let inputs = coordinates.values.par_iter().zip(caps.families);
-        let columns: Vec<Vec<Vec<f64>>> =
-            inputs.map(|(values, family)| polynomials(family, values, caps.degree)).collect();
-        let (mut nets, mut start) = (Vec::new(), 0);
-        for count in self.folds {
-            let rows = start..start + count;
-            start = rows.end;
-            let of_fold = columns.iter().map(|list| list.iter().map(|column| column[rows.clone()].to_vec()).collect());
-            nets.push(Net::of_rows(of_fold.collect(), z[rows.clone()].to_vec()));
-        }
-        nets
+    fn fitted(&self, Coordinates { families, values, name }: &Coordinates, z: &[f64], offset: f64) -> Fitted {
+        let degree = degree_at(z.len());
+        let factors = families.par_iter().zip(values).map(|(family, values)| Factor::new(family, values, degree));
+        let chaos = Chaos::new(factors.collect(), z, offset);
+        // Steps have no tails.
+        let factors = &chaos.basis().factors;
+        let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));
+        let (terms, coefficients) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
+        let expansion = Expansion { terms, coefficients };
+        let effects = Effects { swaps: (0..families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
+        let expansions = [expansion];
+        let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, &effects);
+        let [expansion] = expansions;
+        Fitted { chaos, expansion, extrapolation, polynomials_of: name }
     }
 }

@@ -18,9 +18,8 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
     let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
         let polynomials = if all.given_distributions { "the given distributions" } else { "the columns\' distributions" };
         format!(
-            "surrogate: sparse polynomial chaos expansions (Sudret 2008), orthonormal in {polynomials}, each fitted to {} of \
-             {} parts of the rows and corrected by the other part in what is linear in its errors",
-            all.folds - 1,
+            "surrogate: polynomial chaos expansion (Sudret 2008), orthonormal in {polynomials}, with a prior learnt from the \
+             rows; how its coefficients are computed, and what it leaves, by {} parts of the rows, each left out once",
             all.folds
         )
     });
@@ -35,8 +34,8 @@ pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<Str
     }
     if by_surrogate {
         parts.push(
-            "by the surrogate: 95 %, from the influence of every row, the upper end raised by the share of the variance that \
-             the surrogate leaves",
+            "by the surrogate: 95 %, from the share r of the variance that it leaves of n rows to which it is not fitted, r + 4 \
+             sqrt(r/n) on either side",
         );
     }
     (!parts.is_empty()).then(|| parts.join("; "))
@@ -47,7 +46,7 @@ pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
     let orders = if by_surrogate {
         "by ranks and bins, given data yield first-order indices only; those by the surrogate, with the total indices, lack a \
          part of the variance that the rows cannot assign to inputs (noise, inputs that are not in the table, fine \
-         structure): all of it may belong to any input, so the upper ends of the intervals include it"
+         structure): all of it may belong to any input, so the intervals include it"
     } else {
         "given data yield first-order indices only: no total index, and no interactions; if the sum of the indices is below 1, the \
          rest may be interactions, noise, or inputs that are not in the table"

@@ -1,5 +1,6 @@
 use super::*;
 use crate::surrogate::basis::Term;
+use crate::surrogate::chaos::Factor;
 use crate::surrogate::family::{Family, polynomials};
 
 const X: [[f64; 8]; 2] = [[0.1, 0.9, 0.35, 0.7, 0.2, 0.55, 0.8, 0.05], [-1.0, 0.5, 0.0, 2.0, 1.5, -0.5, 0.25, 0.75]];
@@ -30,11 +31,9 @@ fn influences_are_derivatives_by_the_weights_of_rows() {
         all.map(|[i, j]| model(X[0][i], X[1][j]) * value(term, [i, j])).sum::<f64>() / 64.0
     };
     let expansion = Expansion { coefficients: terms.iter().map(coefficient).collect(), terms };
-    let net = Net::of_rows(columns.clone(), vec![0.0; 8]);
-    let mut contributions = Contributions::new(&net, &expansion);
-    add(&net, &expansion, &mut contributions);
-    let all = [To::Variance, To::FirstOrder(0), To::FirstOrder(1), To::Total(0), To::Total(1)];
-    let influences = all.map(|to| contributions.to(to).moves.clone());
+    let factors = X.iter().map(|x| Factor::new(&Family::of_column(x), x, 2)).collect();
+    let Influences { variance, first_order, total } = Influences::new(&Basis { factors, rows: 8 }, &expansion);
+    let influences: Vec<Vec<f64>> = [vec![variance], first_order, total].concat();
     for row in 0..8 {
         let step = 1e-4;
         let moved = |step: f64| -> Vec<f64> {

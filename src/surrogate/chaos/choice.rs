@@ -1,0 +1,231 @@
+//! Held-out rows choose the way, and whether steps stay.
+
+use rayon::prelude::*;
+
+use super::basis::{Basis, Factor};
+use super::kernel::MAX_ORDER;
+use super::prior::Prior;
+use super::product::Product;
+use super::steps::add_steps;
+use super::ways::{EffectVariances, Fits, Listed, Way};
+use crate::surrogate::basis::Term;
+use crate::surrogate::gram::add_scaled;
+use apportion_base::sum::product;
+
+/// Parts of which each is left out once, and of larger tables.
+const FOLDS: usize = 8;
+const FOLDS_ABOVE: usize = 5;
+const MAX_ROWS_OF_FOLDS: usize = 200;
+
+/// Share of the variance left on held-out rows above which steps are tried.
+const EXACT: f64 = 1e-5;
+
+/// The ratio of what a product leaves alone to what the best fit without it leaves, up to which it is tried as one term.
+const TRIED: f64 = 10.0;
+
+/// The ratio of what is left that counts as clearly less.
+const CLEARLY_LESS: f64 = 0.5;
+
+/// Share of the variance that no rows show that counts as unknown, for each unit of the residual's standard deviation.
+const CLOSE: f64 = 10.0;
+
+/// Errors of indices by rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Variance of a fit by dependent columns.
+const UNBOUNDED: f64 = 10.0;
+
+/// A fitted expansion of an output of variance 1.
+pub(crate) struct Chaos {
+    listed: Listed,
+    coefficients: Vec<f64>,
+    /// Its variances, corrected by the rows to which it is not fitted.
+    pub variances: EffectVariances,
+    /// Share of the variance left on held-out rows.
+    pub rest: f64,
+    /// Half width of the intervals of its indices.
+    pub half_width: f64,
+}
+
+impl Chaos {
+    /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows. The sum of `y` and `offset` may have one sign.
+    pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
+        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len() }, y.to_vec(), MAX_ORDER), None);
+        let mut chosen = if best.rest > EXACT { best.or_with_steps().or_with_product(y, offset) } else { best };
+        chosen.correct(y);
+        chosen
+    }
+
+    /// Returns the fit with a product as one term, if it leaves less.
+    fn or_with_product(self, y: &[f64], offset: f64) -> Self {
+        let basis = Basis { factors: self.basis().factors.iter().map(Factor::without_steps).collect(), rows: y.len() };
+        let rows = basis.rows.min(self.listed.prior.rows);
+        let Some(product) = Product::new(&basis, &y[..rows], offset, |prior| {
+            let listed = Listed::new(prior);
+            let way = Held::new(&listed, None).way;
+            (listed, way)
+        }) else {
+            return self;
+        };
+        if product.scale() * product.scale() > TRIED * self.rest {
+            return self;
+        }
+        let mut left = product.left(&(0..rows).collect::<Vec<usize>>());
+        left.resize(y.len(), 0.0);
+        let other = Self::chosen(Prior::new(basis, left, MAX_ORDER), Some(&product));
+        if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
+    }
+
+    /// Returns the fit with steps, if there are any and they leave less.
+    fn or_with_steps(self) -> Self {
+        let mut prior = self.listed.prior.clone();
+        add_steps(&mut prior);
+        if prior.steps.is_empty() {
+            return self;
+        }
+        let mut other = Self::chosen(prior, None);
+        other.half_width += other.open_at_steps();
+        if other.half_width < self.half_width { other } else { self }
+    }
+
+    /// Returns the share of the variance that the gaps of the rows at steps leave open.
+    fn open_at_steps(&self) -> f64 {
+        let mut sum = 0.0;
+        for (factor, total) in self.listed.prior.basis.factors.iter().zip(&self.variances.total) {
+            for at in factor.steps() {
+                let above = factor.places.iter().copied().filter(|u| u > at).fold(1.0, f64::min);
+                let below = factor.places.iter().copied().filter(|u| u < at).fold(0.0, f64::max);
+                sum += total / self.variances.all * (above - below) / (2.0 * at * (1.0 - at));
+            }
+        }
+        sum
+    }
+
+    /// Returns the factors at the rows.
+    pub fn basis(&self) -> &Basis {
+        &self.listed.prior.basis
+    }
+
+    /// Iterates over the terms and their coefficients, without the constant.
+    pub fn terms(&self) -> impl Iterator<Item = (&Term, f64)> {
+        self.listed.terms.iter().zip(self.coefficients.iter().copied()).filter(|(_, c)| *c != 0.0)
+    }
+
+    /// Corrects the variances by the rows to which the expansion g is not fitted: the part 2 Cov(g_u, f - g) of each.
+    fn correct(&mut self, y: &[f64]) {
+        let Prior { basis, rows, .. } = &self.listed.prior;
+        let others = *rows..basis.rows;
+        if others.is_empty() {
+            return;
+        }
+        let mut left = y[others.clone()].to_vec();
+        for (term, c) in self.terms() {
+            add_scaled(&mut left, -c, &basis.values(term, others.clone()));
+        }
+        let mean = apportion_base::sum::mean(&left);
+        left.iter_mut().for_each(|e| *e -= mean);
+        let terms: Vec<(&Term, f64)> = self.terms().collect();
+        let moves: Vec<f64> = terms
+            .par_iter()
+            .map(|(term, c)| 2.0 * c * product(&basis.values(term, others.clone()), &left) / others.len() as f64)
+            .collect();
+        let mut variances = self.variances.clone();
+        terms.iter().zip(moves).for_each(|((term, _), more)| variances.add(term, more));
+        self.variances = variances;
+    }
+
+    fn chosen(prior: Prior, product: Option<&Product>) -> Self {
+        let listed = Listed::new(prior);
+        let Held { coefficients, rest, .. } = Held::new(&listed, product);
+        let (variances, coefficients) = match product {
+            Some(product) => product.joined(&listed, &coefficients),
+            None => (listed.variances(&coefficients), coefficients),
+        };
+        let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
+        // A close fit is right where there are no rows too.
+        let share = (CLOSE * rest.sqrt()).min(1.0);
+        let unseen = if product.is_some() { 0.0 } else { share * listed.unseen(&coefficients) };
+        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + ROUNDING;
+        Self { listed, coefficients, variances, rest, half_width }
+    }
+
+    /// Returns first-order and total indices. What is left is rather an interaction than a part of one factor alone,
+    /// and the more it is, the rather noise.
+    pub fn indices(&self) -> (Vec<f64>, Vec<f64>) {
+        let EffectVariances { first_order, total, all } = &self.variances;
+        let first_order = first_order.iter().map(|v| v / (all + self.rest)).collect();
+        (first_order, total.iter().map(|v| v / (all + self.rest * self.rest)).collect())
+    }
+}
+
+/// The way that leaves least of held-out rows.
+struct Held {
+    way: usize,
+    coefficients: Vec<f64>,
+    /// Mean square that it leaves.
+    rest: f64,
+}
+
+impl Held {
+    /// Chooses among the ways to the coefficients of `listed`, of what a `product` fitted to the same rows leaves.
+    fn new(listed: &Listed, product: Option<&Product>) -> Self {
+        let rows = listed.prior.rows;
+        let folds = folds_at(rows);
+        let fold_of = folds_of_rows(rows, folds);
+        // The last one leaves out none.
+        let mut all: Vec<(Fits, Vec<f64>)> = (0..=folds)
+            .into_par_iter()
+            .map(|fold| {
+                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| fold_of[*row] == fold);
+                let left = product.map(|product| product.left(&fitted));
+                let y = left.as_ref().unwrap_or(&listed.prior.y);
+                let fits = listed.fits(&fitted, &out, y);
+                let squares = fits.of_ways.iter().map(|fit| {
+                    out.iter().zip(&fit.predictions).map(|(row, g)| (y[*row] - g).powi(2)).sum::<f64>() / rows as f64
+                });
+                let squares = squares.collect();
+                (fits, squares)
+            })
+            .collect();
+        let mut rests = vec![0.0; Way::ALL.len()];
+        for (_, squares) in &all {
+            add_scaled(&mut rests, 1.0, squares);
+        }
+        let (Fits { mut of_ways, left }, _) = all.swap_remove(folds);
+        let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = rests.len() - 1;
+        if listed.variances(&of_ways[last].coefficients).all > UNBOUNDED {
+            rests[last] = f64::INFINITY;
+        } else if left < 0.01 * least {
+            // Exact: all rows determine terms that those of the folds did not.
+            rests[last] = least;
+        }
+        let way = (0..last).rev().fold(last, |best, way| if rests[way] < rests[best] { way } else { best });
+        Self { way, coefficients: of_ways.swap_remove(way).coefficients, rest: rests[way] }
+    }
+}
+
+/// Returns the number of parts of the rows, each of which is left out once.
+pub(crate) fn folds_at(rows: usize) -> usize {
+    if rows <= MAX_ROWS_OF_FOLDS { FOLDS } else { FOLDS_ABOVE }
+}
+
+/// Assigns rows to folds in pseudo-random order, always in the same way.
+fn folds_of_rows(rows: usize, folds: usize) -> Vec<usize> {
+    let mut order: Vec<(u64, usize)> = (0..rows).map(|row| (mixed(row as u64), row)).collect();
+    order.sort_unstable();
+    let mut fold_of = vec![0; rows];
+    order.iter().enumerate().for_each(|(place, (_, row))| fold_of[*row] = place % folds);
+    fold_of
+}
+
+/// Mixes the bits of a number (Steele, Lea and Flood 2014).
+fn mixed(number: u64) -> u64 {
+    let mut z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests;
