@@ -160,6 +160,13 @@ fn used_rows(rows: usize, inputs: usize) -> Vec<usize> {
     drawn_rows(rows, most, 0)
 }
 
+/// Returns what must be added to the centred and scaled outputs `z` for outputs of the sign of `y`.
+fn offset(y: &[f64], z: &[f64]) -> f64 {
+    let largest = (0..z.len()).fold(0, |best, row| if z[row] > z[best] { row } else { best });
+    let smallest = (0..z.len()).fold(0, |best, row| if z[row] < z[best] { row } else { best });
+    y[largest] * ((z[largest] - z[smallest]) / (y[largest] - y[smallest])) - z[largest]
+}
+
 /// The table, shared by all outputs.
 struct Job<'a> {
     /// The names of the inputs.
@@ -190,7 +197,7 @@ impl Job<'_> {
     fn output(&self, y: &[f64]) -> Result<SurrogateOutput, NoVariance> {
         let z = centred(y)?;
         let sd = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
-        let offset = (y[0] - z[0]) / sd;
+        let offset = offset(y, &z) / sd;
         let z: Vec<f64> = z.iter().map(|z| z / sd).collect();
         let mut best = self.fitted(&self.coordinates[0], &z, offset);
         for coordinates in &self.coordinates[1..] {
