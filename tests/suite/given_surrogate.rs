@@ -107,11 +107,11 @@ fn ishigami_from_a_table() {
 fn intervals_contain_the_exact_values_of_a_rough_function() {
     let function = KnownAnswer::from_name("steps").unwrap().default_function();
     let exact = function.exact().indices.unwrap();
-    for seed in 0..4 {
+    let (mut held, mut all) = (0, 0);
+    for seed in 0..16 {
         let columns = random(exact.total.len(), 300, seed);
         let of = output(&columns, evaluated(&columns, |x| function.value(x)), Some(&units(exact.total.len())));
         assert!((of.explained - (1.0 - of.unknown)).abs() < 1e-12 && of.serves == (of.explained >= 0.9));
-        holds(&of, &exact.first_order, &exact.total);
         for index in &of.indices {
             let interval = index.total.interval.unwrap();
             assert!(interval.high - index.total.estimate >= of.unknown);
@@ -119,10 +119,23 @@ fn intervals_contain_the_exact_values_of_a_rough_function() {
         // A step across two inputs, of which polynomials leave a part; by quadrature to 2e-4.
         let columns = random(3, 300, seed);
         let ridge = |x: &[f64]| f64::from(u8::from(x[0] + x[1] > 1.2)) + 0.3 * x[2];
-        let of = output(&columns, evaluated(&columns, ridge), Some(&units(3)));
-        assert!(of.unknown > 0.02 && of.unknown < 0.3, "{}", of.unknown);
-        holds(&of, &[0.3031426, 0.3031426, 0.0333497], &[0.6635077, 0.6635077, 0.0333497]);
+        let of_ridge = output(&columns, evaluated(&columns, ridge), Some(&units(3)));
+        assert!(of_ridge.unknown > 0.02 && of_ridge.unknown < 0.3, "{}", of_ridge.unknown);
+        let ridge_first = [0.3031426, 0.3031426, 0.0333497];
+        for (of, first, total) in [
+            (&of, &exact.first_order[..], &exact.total[..]),
+            (&of_ridge, &ridge_first[..], &[0.6635077, 0.6635077, 0.0333497][..]),
+        ] {
+            for (index, (first, total)) in of.indices.iter().zip(first.iter().zip(total)) {
+                for (estimate, exact) in [(index.first_order, first), (index.total, total)] {
+                    let interval = estimate.interval.unwrap();
+                    held += usize::from(interval.low - 2e-4 <= *exact && *exact <= interval.high + 2e-4);
+                    all += 1;
+                }
+            }
+        }
     }
+    assert!(held * 100 >= all * 95, "{held} of {all}");
 }
 
 #[test]
