@@ -299,7 +299,7 @@ def test_an_answer_that_changes_its_shape_ends_the_run(cube):
 
 def test_wrong_input_is_reported_with_advice(cube):
     cases = [
-        (lambda: ap.Study(ishigami, cube, base_samples=0), "base_samples"),
+        (lambda: ap.Study(ishigami, cube, base_samples=0), "base samples"),
         (lambda: ap.Study(ishigami, {"x1": (3, 1)}), "x1"),
         (lambda: ap.Study(ishigami, {"x1": "wide"}), "pair"),
         (lambda: ap.Study("ishigamy"), "ishigami"),
