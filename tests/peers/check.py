@@ -158,6 +158,64 @@ def azzini(y, j):
     return 2 * np.sum((ba - b) * (a - ab)) / denominator, np.sum((b - ba) ** 2 + (a - ab) ** 2) / denominator
 
 
+def differences(y, j, k):
+    """V_jk as a mean of products of differences: the covariance over z of f(x_j, .) - f with f(x_k, .) - f."""
+    products = [np.mean((y.ba[m] - y.b) * (y.ab[n] - y.a)) for m, n in ((j, k), (k, j))]
+    return sum(products) / 2 / pooled(y)[1]
+
+
+def mixture(numerator, of_none, of_one):
+    """x = numerator/(x of_one + (1 - x) of_none), with x between 0 and 1 on the right side: by bisection."""
+    of_one = max(of_one, of_none / 2)
+    if numerator <= 0:
+        return numerator / of_none
+    if numerator >= of_one:
+        return numerator / of_one
+    # In extended precision, which NumPy's roots of polynomials do not have.
+    low, high = np.longdouble(0), np.longdouble(1)
+    for _ in range(100):
+        x = (low + high) / 2
+        low, high = (x, high) if x * (x * of_one + (1 - x) * of_none) < numerator else (low, x)
+    return (low + high) / 2
+
+
+def saltelli_pooled(y, j):
+    f0, of_none = pooled(y)[0], np.var(np.concatenate([y.a, y.b, y.ab[j]]))
+    covariance = np.clip(np.mean((y.a - f0) * (y.b - f0)), -of_none / 2, of_none / 2)
+    of_one = np.var(np.concatenate([y.b, y.ab[j]]))
+    return mixture(np.mean((y.b - f0) * (y.ab[j] - y.a)), of_none - covariance, of_one - covariance)
+
+
+def jansen_pooled(y, j):
+    of_none, of_one = np.var(np.concatenate([y.a, y.b, y.ab[j]])), np.var(np.concatenate([y.a, y.ab[j]]))
+    return mixture(np.mean((y.a - y.ab[j]) ** 2) / 2, of_none, of_one)
+
+
+FIRST_ORDER = {
+    "sobol-1993": sobol_1993,
+    "homma-saltelli-1996": homma_saltelli_first,
+    "jansen-1999": jansen_first,
+    "saltelli-2002": saltelli_2002,
+    "sobol-2007": sobol_2007_first,
+    "saltelli-2010": saltelli_2010,
+    "saltelli-pooled": saltelli_pooled,
+    "martinez-2011": lambda y, j: correlation(y.b, y.ab[j]),
+    "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[0],
+    "janon-monod-2014": lambda y, j: janon(y.b, y.ab[j]),
+    "azzini-2021": lambda y, j: azzini(y, j)[0],
+}
+
+TOTAL = {
+    "homma-saltelli-1996": homma_saltelli_total,
+    "jansen-1999": jansen_total,
+    "jansen-pooled": jansen_pooled,
+    "sobol-2007": sobol_2007_total,
+    "martinez-2011": lambda y, j: 1 - correlation(y.a, y.ab[j]),
+    "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[1],
+    "janon-monod-2014": lambda y, j: 1 - janon(y.a, y.ab[j]),
+    "azzini-2021": lambda y, j: azzini(y, j)[1],
+}
+
 FUNCTIONS = {"ishigami": Ishigami.evaluate, "sobol-g": Sobol_G.evaluate}
 
 
