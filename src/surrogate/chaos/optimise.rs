@@ -11,7 +11,7 @@ const SMALL_DECREASE: f64 = 2e-9;
 const SMALL_GRADIENT: f64 = 1e-5;
 
 /// Share of the decrease promised by the gradient that is enough (Armijo 1966).
-const ENOUGH: f64 = 1e-4;
+const SUFFICIENT_DECREASE: f64 = 1e-4;
 
 /// Share of the slope that must be gone, else the step is too short (Wolfe 1969).
 const FLAT: f64 = 0.9;
@@ -129,7 +129,7 @@ fn searched(
         let next = evaluate(projected(&now.x, direction, length, bounds));
         let moved: Vec<f64> = next.x.iter().zip(&now.x).map(|(a, b)| a - b).collect();
         let promised = dot(&now.gradient, &moved);
-        if next.value > now.value + ENOUGH * promised || !next.value.is_finite() {
+        if next.value > now.value + SUFFICIENT_DECREASE * promised || !next.value.is_finite() {
             if best.is_some() {
                 return best;
             }
