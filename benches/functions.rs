@@ -6,16 +6,18 @@
 //! `cargo bench --bench functions` writes `docs/accuracy/functions.md`; `-- 4` takes 4 seeds and writes nothing, and `-- 4 steps` those
 //! of one kind alone.
 
+#[path = "slow/mod.rs"]
+mod slow;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::Arc;
 
-use apportion::model::{Batch, Model, Output, RunContext, Worker};
 use apportion::result::{StopReason, StudyResult};
 use apportion::{Interval, Study, Target};
 use rayon::prelude::*;
 use serde::Deserialize;
+use slow::Slow;
 
 const SEEDS: u64 = 20;
 const SIZES: [u64; 8] = [32, 64, 128, 256, 512, 1024, 2048, 4096];
@@ -33,31 +35,6 @@ struct Function {
     first_order: Vec<f64>,
     total: Vec<f64>,
     error: f64,
-}
-
-/// A model that says that it takes its time, as programs do.
-struct Slow(Arc<dyn Model>);
-
-impl Model for Slow {
-    fn outputs(&self) -> &[Output] {
-        self.0.outputs()
-    }
-
-    fn concurrency(&self) -> Option<usize> {
-        Some(1)
-    }
-
-    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-        Box::new(SlowWorker(self.0.worker(context)))
-    }
-}
-
-struct SlowWorker<'a>(Box<dyn Worker + 'a>);
-
-impl Worker for SlowWorker<'_> {
-    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        self.0.run(inputs, batch);
-    }
 }
 
 impl Function {

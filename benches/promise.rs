@@ -7,38 +7,16 @@
 //! looks for the fewest runs of a fixed design, with and without surrogates and plain rows, whose own intervals reach the accuracy.
 //! The study of the equations of motion is timed.
 
+#[path = "slow/mod.rs"]
+mod slow;
+
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
-use apportion::model::{Batch, KnownAnswer, Model, Output, RunContext, Worker};
+use apportion::model::KnownAnswer;
 use apportion::{AnalysisOptions, Sampler, Study, StudyResult, SurrogateChoice, Target};
-
-/// A model that says that it takes its time, so that its runs are what counts.
-struct Slow(Arc<dyn Model>);
-
-impl Model for Slow {
-    fn outputs(&self) -> &[Output] {
-        self.0.outputs()
-    }
-
-    fn concurrency(&self) -> Option<usize> {
-        Some(1)
-    }
-
-    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-        Box::new(SlowWorker(self.0.worker(context)))
-    }
-}
-
-struct SlowWorker<'a>(Box<dyn Worker + 'a>);
-
-impl Worker for SlowWorker<'_> {
-    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        self.0.run(inputs, batch);
-    }
-}
+use slow::Slow;
 
 /// How a study is run.
 enum Way {
