@@ -53,7 +53,7 @@ impl Function {
 
     fn to_accuracy(&self, accuracy: f64, seed: u64) -> StudyResult {
         let study = self.study(&[]);
-        let mut builder = Study::builder(&self.name, Slow(study.model()));
+        let mut builder = Study::builder("function", Slow(study.model()));
         for factor in study.space().factors() {
             builder = builder.with_factor(factor.clone());
         }
