@@ -12,15 +12,13 @@ use super::nets::{Corrected, estimates, in_chunks};
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::{Caps, Term, degree_alone};
-use crate::surrogate::family::{Family, Knotted};
-use crate::surrogate::fit::values_and_rest;
+use crate::surrogate::basis::{Caps, Term};
+use crate::surrogate::family::Family;
 use crate::surrogate::fit::{Expansion, Training};
-use crate::surrogate::knots::{MAX_MOVED, MovedValues, knots};
 use crate::surrogate::net::Net;
-use crate::surrogate::outputs::{OutputTable, ScaledOutput};
+use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    ChosenTerms, Effects, Knot, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_design, fitted_to_others,
+    ChosenTerms, Effects, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_by_chaos, fitted_design, fitted_to_others,
     takes_surrogates, trials,
 };
 
@@ -29,12 +27,6 @@ const MAX_ALONE: usize = 32;
 
 /// Approximate number of neighbours that share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
-
-/// Residual share of the variance of an output above which it may have steps and kinks.
-const ROUGH: f64 = 1e-4;
-
-/// Maximum ratio of the residual with knots to that of polynomials for which knots are used.
-const KNOTS_RATIO: f64 = 0.9;
 
 /// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms
 /// that a longer run has `chosen` if there is one; `None` if there are too few nets or points, the points are not
@@ -119,7 +111,7 @@ pub(super) fn fit_outputs(
     let complete = outputs.par_iter().map(|output| output.at(&complete)).collect();
     let together = Together { design, fitted, families, effects: Effects::new(design, layout), outputs, complete };
     let fits = together.fit_trials(chosen);
-    (0..outputs.len()).into_par_iter().map(|output| together.correct_output(&fits, output, chosen)).collect()
+    (0..outputs.len()).into_par_iter().map(|output| together.correct_output(&fits, output)).collect()
 }
 
 /// Outputs that share the points and the terms of their surrogates.
@@ -136,8 +128,6 @@ struct Together<'a> {
 
 /// A trial fitted to all outputs.
 struct Fit {
-    /// The number of the trial.
-    kind: usize,
     ratio: f64,
     families: Vec<Family>,
     degree: usize,
@@ -149,29 +139,46 @@ struct Fit {
 impl Together<'_> {
     /// Fits all trials, or the one `chosen` in its terms.
     fn fit_trials(&self, chosen: Option<&ChosenTerms>) -> Vec<Fit> {
-        let Some(chosen) = chosen else {
-            let trials = trials(self.families).into_iter().enumerate();
-            return trials.map(|(kind, trial)| self.fit(kind, trial, None)).collect();
-        };
-        let trial = match chosen.knots.is_empty() {
-            true => trials(self.families).into_iter().nth(chosen.kind),
-            false => Some(with_knots(self.families, &chosen.knots)),
-        };
-        trial.into_iter().map(|trial| self.fit(chosen.kind, trial, Some(&chosen.of_nets))).collect()
+        if let Some(ChosenTerms { families, of_nets }) = chosen {
+            let trial = Trial { families: families.clone(), unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: 1.0 };
+            return vec![self.fit(trial, Some(of_nets))];
+        }
+        let trials = trials(self.families);
+        if self.outputs.len() > 1 {
+            return trials.into_iter().map(|trial| self.fit(trial, None)).collect();
+        }
+        let mut families: Vec<Vec<Family>> = Vec::new();
+        for trial in trials {
+            if !families.contains(&trial.families) {
+                families.push(trial.families);
+            }
+        }
+        families.into_iter().map(|families| self.fit_alone(&families)).collect()
+    }
+
+    /// Fits the only output by Bayesian chaos in these polynomials.
+    fn fit_alone(&self, families: &[Family]) -> Fit {
+        let numbers = 0..self.outputs[0].nets.len();
+        let nets: Vec<Net> = numbers.into_par_iter().map(|k| self.net(k, families, 0)).collect();
+        let (families, expansions) = fitted_by_chaos(&nets, families);
+        let degree = largest_degree(expansions.iter().flat_map(|of| &of.terms));
+        let nets = (0..nets.len()).into_par_iter().map(|k| self.net(k, &families, degree)).collect();
+        let expansions = expansions.into_iter().map(|of_net| vec![of_net]).collect();
+        Fit { ratio: 1.0, families, degree, nets, expansions }
     }
 
     /// Fits one trial to all outputs, in the terms `chosen` for each net, if there are any.
-    fn fit(&self, kind: usize, trial: Trial, chosen: Option<&[Vec<Term>]>) -> Fit {
+    fn fit(&self, trial: Trial, chosen: Option<&[Vec<Term>]>) -> Fit {
         let Trial { families, unbounded_degree, ratio } = trial;
         let caps = Caps::new(&families, unbounded_degree);
         let numbers = (0..self.outputs[0].nets.len()).into_par_iter();
-        let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, caps.degree)).collect();
+        let degree = chosen.map_or(caps.degree, |of_nets| largest_degree(of_nets.iter().flatten()));
+        let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, degree)).collect();
         let training = nets.iter().enumerate().map(|(k, net)| {
             Training::of_outputs(net, self.complete.iter().map(|output| output.nets[k].runs.as_slice()).collect())
         });
         let expansions = fitted_to_others(&nets, &training.collect::<Vec<_>>(), caps, chosen);
-        let degree = caps.degree;
-        Fit { kind, ratio, families, degree, nets, expansions }
+        Fit { ratio, families, degree, nets, expansions }
     }
 
     /// Returns net number `k` with the first output, in polynomials of `families`.
@@ -180,8 +187,8 @@ impl Together<'_> {
         Net::new(&self.fitted, k as u64, 0..points, families, degree, &self.outputs[0].nets[k].runs)
     }
 
-    /// Estimates one output by the trial that leaves least unknown, with steps and kinks if these are worth it.
-    fn correct_output(&self, fits: &[Fit], output: usize, chosen: Option<&ChosenTerms>) -> Option<SurrogateEstimates> {
+    /// Estimates one output by the trial that leaves least unknown.
+    fn correct_output(&self, fits: &[Fit], output: usize) -> Option<SurrogateEstimates> {
         let mut best: Option<(&Fit, Corrected)> = None;
         for fit in fits {
             let next = self.corrected(fit, output);
@@ -189,16 +196,10 @@ impl Together<'_> {
                 best = Some((fit, next));
             }
         }
-        let (fit, mut best) = best?;
-        let mut knots = chosen.map_or_else(Vec::new, |chosen| chosen.knots.clone());
-        // If factors are unbounded, residuals in a few rows are a tail.
-        let is_tail = self.families.iter().any(Family::is_unbounded) && best.is_heavy_tailed();
-        if chosen.is_none() && self.outputs.len() == 1 && best.residual() > ROUGH && !is_tail {
-            (knots, best) = self.add_knots(fit, best);
-        }
+        let (fit, best) = best?;
         let mut all = estimates(&best, &[], self.outputs[output].scale);
         if self.outputs.len() == 1 {
-            all.chosen = Some(ChosenTerms { kind: fit.kind, knots, of_nets: terms_of(&best.expansions) });
+            all.chosen = Some(ChosenTerms { families: fit.families.clone(), of_nets: terms_of(&best.expansions) });
         }
         Some(all)
     }
@@ -222,87 +223,14 @@ impl Together<'_> {
         let nets = nets.collect();
         Corrected::new(&self.fitted, nets, expansions, &fit.families, &self.effects)
     }
+}
 
-    /// Adds steps and kinks to the `best` surrogate of the only output, a `fit` without any, as long as they reduce the
-    /// residual. Returns the knots and the surrogate with them.
-    fn add_knots(&self, fit: &Fit, mut best: Corrected) -> (Vec<Vec<Knot>>, Corrected) {
-        let mut knots = Vec::new();
-        let (mut next, mut terms) = (self.find_knots(fit, &best.expansions), None);
-        for (is_last, ratio) in [(false, KNOTS_RATIO), (true, 1.0)] {
-            if next.iter().all(Vec::is_empty) {
-                break;
-            }
-            let fit = self.fit(fit.kind, with_knots(self.families, &next), terms.as_deref());
-            let corrected = self.corrected(&fit, 0);
-            if corrected.residual() > ratio * best.residual() {
-                break;
-            }
-            // The second time with the terms of the first, and with the knots where these place them.
-            terms = Some(terms_of(&corrected.expansions));
-            let placed = if is_last { Vec::new() } else { self.place_knots(&fit, &corrected.expansions) };
-            if corrected.unknown() <= ratio * best.unknown() {
-                (knots, best) = (next, corrected);
-            }
-            next = placed;
-        }
-        (knots, best)
-    }
-
-    /// Returns the knots of every factor that the residuals of these expansions show.
-    fn find_knots(&self, fit: &Fit, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
-        let rest = fit.nets.iter().zip(expansions);
-        let rest: Vec<OutputTable> =
-            rest.map(|(net, expansion)| OutputTable { runs: values_and_rest(net, expansion).1 }).collect();
-        let families = self.families.par_iter().enumerate();
-        families.map(|(factor, family)| knots(&fit.nets, &rest, factor, family, fit.degree)).collect()
-    }
-
-    /// Places the knots of a fit by these expansions of its output.
-    fn place_knots(&self, fit: &Fit, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
-        let [left, right] = [-MAX_MOVED, MAX_MOVED].map(|by| self.values_with_moved_knots(fit, expansions, by));
-        let moved = MovedValues { left, right };
-        let mut placed = Vec::with_capacity(fit.families.len());
-        for (factor, family) in fit.families.iter().enumerate() {
-            let Family::Knotted(knotted) = family else {
-                placed.push(Vec::new());
-                continue;
-            };
-            let terms = expansions.iter().flat_map(Expansion::iter);
-            let coefficients: Vec<(usize, f64)> =
-                terms.filter_map(|(term, b)| Some((degree_alone(term, factor)?, b))).collect();
-            placed.push(knotted.placed(&fit.nets, &moved, factor, &coefficients));
-        }
-        placed
-    }
-
-    /// Returns the values of expansions with all knots moved by `by` of their widths.
-    fn values_with_moved_knots(&self, fit: &Fit, expansions: &[Expansion], by: f64) -> Vec<OutputTable> {
-        let mut families = fit.families.clone();
-        for family in &mut families {
-            if let Family::Knotted(knotted) = family {
-                **knotted = Knotted::clone(knotted).moved(by);
-            }
-        }
-        let values = expansions.par_iter().enumerate().map(|(k, expansion)| {
-            let (runs, _) = values_and_rest(&self.net(k, &families, fit.degree), expansion);
-            OutputTable { runs }
-        });
-        values.collect()
-    }
+fn largest_degree<'a>(terms: impl Iterator<Item = &'a Term>) -> usize {
+    terms.flatten().map(|(_, degree)| *degree).max().unwrap_or(0)
 }
 
 fn terms_of(expansions: &[Expansion]) -> Vec<Vec<Term>> {
     expansions.iter().map(|expansion| expansion.terms.clone()).collect()
-}
-
-/// Returns functions of all factors with these `knots`: the trial for an output with large residuals of polynomials.
-fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
-    let degree = Caps::degree_of(families.len());
-    let families = families.iter().zip(knots).map(|(family, knots)| match knots[..] {
-        [] => family.clone(),
-        _ => Family::Knotted(Box::new(Knotted::new(family, knots, degree))),
-    });
-    Trial { families: families.collect(), unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: 1.0 }
 }
 
 #[cfg(test)]

@@ -161,8 +161,7 @@ fn next_members(members: &mut [usize], factors: usize) -> bool {
 }
 
 /// Returns the terms `active` by falling square of their coefficients, and then, for each in this order, its
-/// neighbours: with one and two degrees more in one of its factors, and with one of the leading factors as a partner,
-/// in degree 1, and for one with steps or kinks also in the degree of its leading term.
+/// neighbours: with one and two degrees more in one of its factors, and with one of the leading factors as a partner.
 pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<Term> {
     let mut order: Vec<usize> = (0..active.len()).collect();
     order.sort_by(|&i, &j| {
@@ -183,15 +182,9 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
             if term.len() < MAX_FACTORS_OF_NEIGHBOURS
                 && let Err(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor)
             {
-                let strongest = match caps.families[factor] {
-                    Family::Knotted(_) => leading_degree(active, &order, factor),
-                    _ => 1,
-                };
-                for degree in [1, strongest] {
-                    let mut next = term.clone();
-                    next.insert(place, (factor, degree));
-                    terms.push(next);
-                }
+                let mut next = term.clone();
+                next.insert(place, (factor, 1));
+                terms.push(next);
             }
         }
     }
@@ -206,19 +199,6 @@ pub(crate) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) 
     match list.iter_mut().find(|(other, _)| *other == key) {
         Some((_, sum)) => *sum += more,
         None => list.push((key, more)),
-    }
-}
-
-/// Returns the degree of the first term with only `factor`.
-fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
-    order.iter().find_map(|&place| degree_alone(&active[place], factor)).unwrap_or(1)
-}
-
-/// Returns the degree of a term with no other factor than this one.
-pub(crate) fn degree_alone(term: &Term, factor: usize) -> Option<usize> {
-    match term[..] {
-        [(other, degree)] if other == factor => Some(degree),
-        _ => None,
     }
 }
 

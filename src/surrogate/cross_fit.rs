@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 
 use super::basis::{Caps, Term, first_terms};
+use super::chaos::{Chaos, Factor, MAX_ROWS, degree_at};
+use super::family::Family;
 use super::fit::{Expansion, MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
 use super::identifiable::IdentifiableTerms;
 use super::net::Net;
@@ -11,6 +13,31 @@ use super::net::Net;
 pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
     fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
+}
+
+/// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, and the functions of every
+/// factor in these: polynomials of `families`, and steps.
+pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>, Vec<Expansion>) {
+    let rows = rows_of_nets(nets);
+    let y: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].outputs[run][point]).collect();
+    let degree = degree_at(rows.len());
+    let factors = families.par_iter().enumerate().map(|(factor, family)| {
+        let u: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].quantiles(run, factor)[point]).collect();
+        Factor::new(family, &u, degree)
+    });
+    let chaos = Chaos::of_parts(factors.collect(), &y, rows.iter().map(|(k, ..)| *k).collect());
+    (chaos.basis().factors.iter().map(Factor::with_steps).collect(), chaos.expansions())
+}
+
+/// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then the others
+/// point by point.
+fn rows_of_nets(nets: &[Net]) -> Vec<(usize, usize, usize)> {
+    let points = nets.iter().map(Net::points).max().unwrap_or(0);
+    let runs = nets.iter().map(Net::runs).max().unwrap_or(0);
+    let plain = (0..runs.min(2)).flat_map(|run| (0..points).map(move |point| (run, point)));
+    let swapped = (0..points).flat_map(|point| (2..runs).map(move |run| (run, point)));
+    let rows = plain.chain(swapped).flat_map(|(run, point)| (0..nets.len()).map(move |k| (k, run, point)));
+    rows.filter(|&(k, run, point)| run < nets[k].runs() && point < nets[k].points()).take(MAX_ROWS).collect()
 }
 
 /// Returns for every net the expansions of all outputs fitted to the `training` runs of the others; in one round of few

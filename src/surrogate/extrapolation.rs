@@ -7,8 +7,8 @@
 //! close to a polynomial of low degree continues like one. The rise of the tangents counts too, in proportion to the
 //! residual: where a tail is heavy, it is most of the variance of a straight line.
 //!
-//! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a knot from
-//! one another counts as if the step were uniform over the width of the knot, of standard deviation width/sqrt(12).
+//! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a step from
+//! one another counts as if the step were uniform over the width of its range, of standard deviation width/sqrt(12).
 
 use std::collections::BTreeMap;
 
@@ -24,8 +24,8 @@ const PANELS: usize = 160;
 /// Relative distance from the edge of the two values of u used for slopes.
 const NEAR: f64 = 1e-5;
 
-/// Distance in u to either side of a knot.
-const KNOT_SIDE: f64 = 1e-9;
+/// Distance in u to either side of a step.
+const STEP_SIDE: f64 = 1e-9;
 
 /// Multiple of the root mean square residual that counts for every degree of a polynomial, times its departure; limited
 /// to the whole departure. Polynomials that are small at the runs grow this fast beyond them, as those of Chebyshev do.
@@ -35,7 +35,7 @@ const GROWTH: f64 = 3.2;
 /// A function that returns the polynomials of a family at a distance in the quantile from one of its ends.
 type Polynomials = fn(&Family, &[f64], usize) -> Vec<Vec<f64>>;
 
-/// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
+/// One tail of a factor, from its edge outwards; or a step, with its two sides instead of the tail and its tangents.
 struct Tail {
     /// Probabilities of the nodes.
     weights: Vec<f64>,
@@ -67,13 +67,12 @@ impl Tail {
         Self { weights, values, tangents }
     }
 
-    /// Returns the steps and kinks of a factor with functions of `family`.
-    fn knots(family: &Family) -> Vec<Self> {
-        let Family::Knotted(knotted) = family else { return Vec::new() };
-        let sides = knotted.knots.iter().map(|knot| {
-            let [before, after] =
-                [-KNOT_SIDE, KNOT_SIDE].map(|by| polynomials(family, &[knot.u + by], knotted.degree()));
-            Self { weights: vec![knot.width / 12.0f64.sqrt()], values: before, tangents: after }
+    /// Returns the steps of a factor with functions of `family`.
+    fn steps(family: &Family, degree: usize) -> Vec<Self> {
+        let Family::Stepped(stepped) = family else { return Vec::new() };
+        let sides = stepped.steps.iter().map(|step| {
+            let [before, after] = [-STEP_SIDE, STEP_SIDE].map(|by| polynomials(family, &[step.u + by], degree));
+            Self { weights: vec![step.width / 12.0f64.sqrt()], values: before, tangents: after }
         });
         sides.collect()
     }
@@ -166,25 +165,25 @@ impl ExtrapolationError {
         for (factor, family) in families.iter().enumerate() {
             let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
             let tails = if degree > 0 { Tail::both(family, mass, degree) } else { Vec::new() };
-            let knots = Tail::knots(family);
-            if tails.is_empty() && knots.is_empty() {
+            let steps = if degree > 0 { Tail::steps(family, degree) } else { Vec::new() };
+            if tails.is_empty() && steps.is_empty() {
                 continue;
             }
             let of_factor = (factor, Term::new())..(factor + 1, Term::new());
             for ((_, others), group) in groups.iter().flat_map(|groups| groups.range(of_factor.clone())) {
                 let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
-                // A close fit determines tails, and no knots.
+                // A close fit determines tails, and no steps.
                 let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                let [tail, knot] = [&tails, &knots].map(|of| Departure::sum(of, |tail| tail.departure(group)));
+                let [tail, step] = [&tails, &steps].map(|of| Departure::sum(of, |tail| tail.departure(group)));
                 let rise = Departure::sum(&tails, |tail| tail.rise(group));
-                let mean = weight * tail.mean + share * (knot.mean + rest * rise.mean);
+                let mean = weight * tail.mean + share * (step.mean + rest * rise.mean);
                 if others.is_empty() {
                     all.mean += mean;
                 } else {
                     // The mean over the factor is the coefficient of the others.
                     all.add_to_parts(others, 2.0 * group.offset.abs() * mean, effects);
                 }
-                let square = weight * tail.square + share * (knot.square + rest * rise.square);
+                let square = weight * tail.square + share * (step.square + rest * rise.square);
                 all.add(&with(others, factor), square, effects);
             }
         }

@@ -1,13 +1,10 @@
-//! The functions of one factor, orthonormal under its distribution: polynomials, with steps and kinks if there are knots.
+//! The functions of one factor, orthonormal under its distribution: polynomials, and steps after them.
 
-use super::gram::{Square, add_scaled, inverse, lower_factor};
-use super::orthogonal::{OrthogonalPolynomials, Recurrence, recurred, rule};
+use super::orthogonal::{OrthogonalPolynomials, Recurrence, recurred};
+use super::stepped::Stepped;
 use crate::space::Distribution;
 use apportion_base::special::normal_quantile;
 use apportion_base::sum::range;
-
-/// Panels of the quadrature, each half as wide as the one before it, towards either end.
-const PANELS: i32 = 50;
 
 /// The polynomials of one factor.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +19,8 @@ pub enum Family {
     Replaced { own: Box<Family>, by: Box<Family> },
     /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
     Column(Box<Recurrence>),
-    /// Polynomials of another family together with steps and kinks, all of which count as degrees.
-    Knotted(Box<Knotted>),
+    /// Polynomials of another family, and steps after them.
+    Stepped(Box<Stepped>),
 }
 
 impl Family {
@@ -48,9 +45,9 @@ impl Family {
         Self::Column(Box::new(recurrence.unwrap_or_default()))
     }
 
-    /// Returns its polynomials without steps and kinks.
+    /// Returns its polynomials without steps.
     pub fn smooth(&self) -> &Self {
-        if let Self::Knotted(knotted) = self { &knotted.base } else { self }
+        if let Self::Stepped(stepped) = self { &stepped.base } else { self }
     }
 
     /// Returns the polynomials in the values of the factor, in which a smooth output continues beyond all rows.
@@ -64,7 +61,7 @@ impl Family {
             Self::Hermite => true,
             Self::Orthogonal(polynomials) => polynomials.is_unbounded(),
             Self::Replaced { by, .. } => by.is_unbounded(),
-            Self::Knotted(knotted) => knotted.base.is_unbounded(),
+            Self::Stepped(stepped) => stepped.base.is_unbounded(),
             Self::Legendre | Self::Column(_) => false,
         }
     }
@@ -84,7 +81,7 @@ impl Family {
             Self::Orthogonal(polynomials) => polynomials.degree(),
             Self::Column(recurrence) => recurrence.degree(),
             Self::Replaced { by, .. } => by.degree(),
-            Self::Knotted(knotted) => knotted.degree(),
+            Self::Stepped(stepped) => stepped.degree(),
         }
     }
 }
@@ -92,106 +89,12 @@ impl Family {
 /// Maximum degree of any polynomial.
 pub(crate) const MAX_DEGREES: usize = 30;
 
-/// The place of a step or a kink of an output in a factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Knot {
-    /// The quantile.
-    pub u: f64,
-    /// Width of the range of quantiles that contains it.
-    pub width: f64,
-    /// Whether it is a step rather than a kink.
-    pub is_step: bool,
-}
-
-/// The polynomials of a factor, and steps and hinges at its knots: orthonormalised under the distribution in the order
-/// x, those of the knots, x^2, ..., by quadrature.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Knotted {
-    /// The polynomials without steps and hinges.
-    pub base: Family,
-    pub knots: Vec<Knot>,
-    /// For every knot, its polynomial of degree 1.
-    edges: Vec<f64>,
-    /// Row k has the coefficients of function k in 1, x, those of the knots, x^2, ..., as many as it needs.
-    pub(super) rows: Vec<Vec<f64>>,
-}
-
-impl Knotted {
-    /// Creates at most `degree` functions of a factor with these `knots` and the polynomials `base`.
-    pub fn new(base: &Family, knots: &[Knot], degree: usize) -> Self {
-        let all = Self { base: base.clone(), knots: knots.to_vec(), edges: Vec::new(), rows: Vec::new() }.moved(0.0);
-        let halves = (1..=PANELS).map(|k| 0.5f64.powi(k));
-        let mut ends: Vec<f64> = halves.flat_map(|h| [h, 1.0 - h]).chain(knots.iter().map(|knot| knot.u)).collect();
-        ends.sort_by(f64::total_cmp);
-        let (u, weights): (Vec<f64>, Vec<f64>) = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1])).unzip();
-        let mut columns = all.raw(polynomials(base, &u, degree), degree);
-        for column in &mut columns {
-            for (value, weight) in column.iter_mut().zip(&weights) {
-                *value *= weight.sqrt();
-            }
-        }
-        let mut gram = Square::zeros(columns.len());
-        gram.add_products(&columns);
-        Self { rows: inverse(&lower_factor(&gram)), ..all }
-    }
-
-    /// Returns the largest index of a function.
-    pub fn degree(&self) -> usize {
-        self.rows.len() - 1
-    }
-
-    /// Returns the same functions with the steps and hinges at knots moved by `by` of their widths: the expansion on
-    /// either side of a knot.
-    pub fn moved(mut self, by: f64) -> Self {
-        let places: Vec<f64> = self.knots.iter().map(|knot| knot.u + by * knot.width).collect();
-        self.edges = polynomials(&self.base, &places, 1).swap_remove(0);
-        self
-    }
-
-    /// Returns 1, x, those of the knots, x^2, ... except the last ones, given the polynomials of degree 1, 2, ... . For
-    /// a step its hinge comes second, for a kink its step.
-    fn raw(&self, mut polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
-        polynomials.truncate(degree.saturating_sub(2 * self.knots.len()).max(1));
-        let higher = polynomials.split_off(1);
-        let x = polynomials.swap_remove(0);
-        let mut columns = vec![vec![1.0; x.len()], x];
-        for (edge, knot) in self.edges.iter().zip(&self.knots) {
-            let x = &columns[1];
-            let step: Vec<f64> = x.iter().map(|x| if x < edge { 0.0 } else { 1.0 }).collect();
-            let hinge: Vec<f64> = x.iter().map(|x| if x < edge { 0.0 } else { x - edge }).collect();
-            columns.extend(if knot.is_step { [step, hinge] } else { [hinge, step] });
-        }
-        columns.extend(higher);
-        columns
-    }
-
-    /// Returns the functions 1, 2, ..., given at least as many polynomials.
-    pub fn columns(&self, polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
-        let raw = self.raw(polynomials, self.degree());
-        let mut columns = Vec::new();
-        for row in self.rows[1..].iter().take(degree) {
-            let mut column = vec![0.0; raw[0].len()];
-            for (weight, raw) in row.iter().zip(&raw) {
-                add_scaled(&mut column, *weight, raw);
-            }
-            columns.push(column);
-        }
-        columns
-    }
-
-    /// Returns the coefficient of one of the functions 1, x, those of the knots, x^2, ... in an expansion with
-    /// `coefficients` (index, coefficient).
-    pub fn raw_coefficient(&self, coefficients: &[(usize, f64)], raw: usize) -> f64 {
-        coefficients.iter().map(|(k, b)| b * self.rows[*k].get(raw).unwrap_or(&0.0)).sum()
-    }
-}
-
 /// Returns the orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the
 /// quantiles of the factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
         Family::Orthogonal(polynomials) => polynomials.columns(u, degree),
-        Family::Knotted(knotted) => knotted.columns(polynomials(&knotted.base, u, knotted.degree()), degree),
+        Family::Stepped(stepped) => stepped.columns(polynomials(&stepped.base, u, degree), |at| u.iter().map(|u| *u > at).collect()),
         Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Replaced { by, .. } => polynomials(by, u, degree),
         Family::Legendre => {
@@ -214,7 +117,9 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
 pub fn upper_polynomials(family: &Family, v: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
         Family::Orthogonal(polynomials) => polynomials.upper_columns(v),
-        Family::Knotted(knotted) => knotted.columns(upper_polynomials(&knotted.base, v, knotted.degree()), degree),
+        Family::Stepped(stepped) => {
+            stepped.columns(upper_polynomials(&stepped.base, v, degree), |at| v.iter().map(|v| *v < 1.0 - at).collect())
+        }
         Family::Replaced { by, .. } => upper_polynomials(by, v, degree),
         Family::Hermite => {
             // They are even or odd.

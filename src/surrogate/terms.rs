@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::basis::{Term, add_to};
-use super::family::Knot;
+use super::family::Family;
 use super::fit::Expansion;
 use crate::design::Design;
 use crate::effect::Layout;
@@ -16,10 +16,8 @@ const MAX_LEADING_TERMS: usize = 12;
 /// The terms of the surrogates of every net.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenTerms {
-    /// Index of the kind of polynomials.
-    pub kind: usize,
-    /// The knots of every factor; empty for polynomials only.
-    pub knots: Vec<Vec<Knot>>,
+    /// The functions of every factor.
+    pub families: Vec<Family>,
     /// For each net the terms of the surrogate of the others: the factors in each, by index, with their degrees.
     pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
 }

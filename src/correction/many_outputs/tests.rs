@@ -71,16 +71,16 @@ fn steps_and_kinks_are_located() {
         assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
     }
     let chosen = corrected.chosen.unwrap();
-    let [step, none, kink] = &chosen.knots[..] else { panic!("{:?}", chosen.knots) };
-    assert!(step.len() == 1 && step[0].is_step && (step[0].u - 0.37).abs() <= step[0].width, "{step:?}");
-    assert!(kink.len() == 1 && !kink[0].is_step && (kink[0].u - 0.6).abs() < 1.0 / 64.0, "{kink:?}");
-    assert_eq!(none, &[]);
+    let Family::Stepped(stepped) = &chosen.families[0] else { panic!("{:?}", chosen.families) };
+    let [step] = stepped.steps[..] else { panic!("{stepped:?}") };
+    assert!((step.u - 0.37).abs() <= step.width, "{step:?}");
+    assert_eq!(chosen.families[1..], families[1..]);
     // Some of the rows, in the same terms.
     let half = design.with_points(64).unwrap();
     let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();
     let of_half = estimates(&half, &first, Some(&chosen));
     assert!(of_half.explained > 0.99, "{}", of_half.explained);
-    // There are no knots where the output is smooth.
+    // There are no steps where the output is smooth.
     let smooth = kept(&design, |u| libm::exp(u[0]) * libm::sin(9.0 * u[1]) + u[2]);
-    assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().knots, [] as [Vec<Knot>; 0]);
+    assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().families, families);
 }

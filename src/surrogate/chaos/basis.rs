@@ -7,6 +7,7 @@ use super::linear::{LANES, Panels};
 use crate::space::Distribution;
 use crate::surrogate::family::{Family, polynomials};
 use crate::surrogate::orthogonal::rule;
+use crate::surrogate::stepped::{Step, Stepped};
 use apportion_base::sum::product;
 
 /// One factor.
@@ -36,6 +37,21 @@ impl Factor {
     /// Returns the factor without its steps.
     pub fn without_steps(&self) -> Self {
         Self { steps: Vec::new(), step_values: Vec::new(), ..self.clone() }
+    }
+
+    /// Returns its polynomials with its steps, of which each lies somewhere between two neighbouring rows.
+    pub fn with_steps(&self) -> Family {
+        if self.steps.is_empty() {
+            return self.family.clone();
+        }
+        let steps = self.steps.iter().map(|at| Step { u: *at, width: self.gap(*at) });
+        Family::Stepped(Box::new(Stepped::new(&self.family, self.degree(), steps.collect())))
+    }
+
+    /// Returns the distance of the rows on either side of a place.
+    pub fn gap(&self, at: f64) -> f64 {
+        let above = self.places.iter().copied().filter(|u| *u > at).fold(1.0, f64::min);
+        above - self.places.iter().copied().filter(|u| *u < at).fold(0.0, f64::max)
     }
 
     /// Returns the number of polynomials.
@@ -99,6 +115,8 @@ fn centred_ranks(values: &[f64]) -> Vec<f64> {
 pub struct Basis {
     pub factors: Vec<Factor>,
     pub rows: usize,
+    /// The part to which each of the rows that are fitted belongs: each part is left out once.
+    pub parts: Vec<usize>,
 }
 
 impl Basis {

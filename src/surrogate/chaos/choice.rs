@@ -1,14 +1,18 @@
 //! Held-out rows choose the way, and whether steps stay.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::basis::{Basis, Factor};
 use super::kernel::MAX_ORDER;
-use super::prior::Prior;
+use super::prior::{MAX_ROWS, Prior};
 use super::product::Product;
 use super::steps::add_steps;
 use super::ways::{EffectVariances, Fits, Listed, Way};
 use crate::surrogate::basis::Term;
+use crate::surrogate::family::Family;
+use crate::surrogate::fit::Expansion;
 use crate::surrogate::gram::add_scaled;
 use apportion_base::sum::product;
 
@@ -29,6 +33,9 @@ const CLEARLY_LESS: f64 = 0.5;
 /// Share of the variance that no rows show that counts as unknown, for each unit of the residual's standard deviation.
 const CLOSE: f64 = 10.0;
 
+/// Share of what is left that the smallest coefficients may add to it.
+const DROPPED: f64 = 0.01;
+
 /// Errors of indices by rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -39,6 +46,8 @@ const UNBOUNDED: f64 = 10.0;
 pub(crate) struct Chaos {
     listed: Listed,
     coefficients: Vec<f64>,
+    /// The coefficients without each part of the rows.
+    of_parts: Vec<Vec<f64>>,
     /// Its variances, corrected by the rows to which it is not fitted.
     pub variances: EffectVariances,
     /// Share of the variance left on held-out rows.
@@ -50,16 +59,58 @@ pub(crate) struct Chaos {
 impl Chaos {
     /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows. The sum of `y` and `offset` may have one sign.
     pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
-        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len() }, y.to_vec(), MAX_ORDER), None);
+        let parts = parts_of_rows(y.len().min(MAX_ROWS));
+        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
         let mut chosen = if best.rest > EXACT { best.or_with_steps().or_with_product(y, offset) } else { best };
         chosen.correct(y);
         chosen
     }
 
+    /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
+    pub fn of_parts(factors: Vec<Factor>, y: &[f64], parts: Vec<usize>) -> Self {
+        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
+        if best.rest > EXACT { best.or_with_steps() } else { best }
+    }
+
+    /// Returns for each part of the rows the expansion that is fitted to the others, in the functions of
+    /// [`Factor::with_steps`].
+    pub fn expansions(&self) -> Vec<Expansion> {
+        let families: Vec<Family> = self.basis().factors.iter().map(Factor::with_steps).collect();
+        let of_parts = self.of_parts.par_iter().enumerate();
+        of_parts.map(|(part, coefficients)| self.expansion(part, coefficients, &families)).collect()
+    }
+
+    /// Returns that with these coefficients, without the smallest ones, of which it shows no difference.
+    fn expansion(&self, part: usize, coefficients: &[f64], families: &[Family]) -> Expansion {
+        let Listed { prior, terms, .. } = &self.listed;
+        let mut order: Vec<usize> = (0..terms.len()).filter(|j| coefficients[*j] != 0.0).collect();
+        order.sort_by(|a, b| coefficients[*b].abs().total_cmp(&coefficients[*a].abs()).then(a.cmp(b)));
+        let mut left_out = 0.0;
+        while let Some(last) = order.last() {
+            left_out += coefficients[*last] * coefficients[*last];
+            if left_out > DROPPED * self.rest {
+                break;
+            }
+            order.pop();
+        }
+        let mut sums: BTreeMap<Term, f64> = BTreeMap::new();
+        for j in order {
+            for (term, c) in expanded(&terms[j], families) {
+                *sums.entry(term).or_default() += c * coefficients[j];
+            }
+        }
+        let g = self.listed.combined(coefficients);
+        let left = (0..prior.rows).filter(|row| prior.basis.parts[*row] != part).map(|row| prior.y[row] - g[row]);
+        sums.insert(Term::new(), apportion_base::sum::mean(&left.collect::<Vec<f64>>()));
+        let (terms, coefficients) = sums.into_iter().unzip();
+        Expansion { terms, coefficients }
+    }
+
     /// Returns the fit with a product as one term, if it leaves less.
     fn or_with_product(self, y: &[f64], offset: f64) -> Self {
-        let basis = Basis { factors: self.basis().factors.iter().map(Factor::without_steps).collect(), rows: y.len() };
-        let rows = basis.rows.min(self.listed.prior.rows);
+        let factors = self.basis().factors.iter().map(Factor::without_steps).collect();
+        let basis = Basis { factors, ..self.basis().clone() };
+        let rows = self.listed.prior.rows;
         let Some(product) = Product::new(&basis, &y[..rows], offset, |prior| {
             let listed = Listed::new(prior);
             let way = Held::new(&listed, None).way;
@@ -93,9 +144,7 @@ impl Chaos {
         let mut sum = 0.0;
         for (factor, total) in self.listed.prior.basis.factors.iter().zip(&self.variances.total) {
             for at in factor.steps() {
-                let above = factor.places.iter().copied().filter(|u| u > at).fold(1.0, f64::min);
-                let below = factor.places.iter().copied().filter(|u| u < at).fold(0.0, f64::max);
-                sum += total / self.variances.all * (above - below) / (2.0 * at * (1.0 - at));
+                sum += total / self.variances.all * factor.gap(*at) / (2.0 * at * (1.0 - at));
             }
         }
         sum
@@ -136,7 +185,7 @@ impl Chaos {
 
     fn chosen(prior: Prior, product: Option<&Product>) -> Self {
         let listed = Listed::new(prior);
-        let Held { coefficients, rest, .. } = Held::new(&listed, product);
+        let Held { coefficients, of_parts, rest, .. } = Held::new(&listed, product);
         let (variances, coefficients) = match product {
             Some(product) => product.joined(&listed, &coefficients),
             None => (listed.variances(&coefficients), coefficients),
@@ -146,7 +195,7 @@ impl Chaos {
         let share = (CLOSE * rest.sqrt()).min(1.0);
         let unseen = if product.is_some() { 0.0 } else { share * listed.unseen(&coefficients) };
         let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + ROUNDING;
-        Self { listed, coefficients, variances, rest, half_width }
+        Self { listed, coefficients, of_parts, variances, rest, half_width }
     }
 
     /// Returns first-order and total indices. What is left is rather an interaction than a part of one factor alone,
@@ -162,6 +211,8 @@ impl Chaos {
 struct Held {
     way: usize,
     coefficients: Vec<f64>,
+    /// The same without each part of the rows.
+    of_parts: Vec<Vec<f64>>,
     /// Mean square that it leaves.
     rest: f64,
 }
@@ -170,13 +221,13 @@ impl Held {
     /// Chooses among the ways to the coefficients of `listed`, of what a `product` fitted to the same rows leaves.
     fn new(listed: &Listed, product: Option<&Product>) -> Self {
         let rows = listed.prior.rows;
-        let folds = folds_at(rows);
-        let fold_of = folds_of_rows(rows, folds);
+        let part_of = &listed.prior.basis.parts;
+        let parts = part_of.iter().max().map_or(0, |last| last + 1);
         // The last one leaves out none.
-        let mut all: Vec<(Fits, Vec<f64>)> = (0..=folds)
+        let mut all: Vec<(Fits, Vec<f64>)> = (0..=parts)
             .into_par_iter()
-            .map(|fold| {
-                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| fold_of[*row] == fold);
+            .map(|part| {
+                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| part_of[*row] == part);
                 let left = product.map(|product| product.left(&fitted));
                 let y = left.as_ref().unwrap_or(&listed.prior.y);
                 let fits = listed.fits(&fitted, &out, y);
@@ -191,7 +242,7 @@ impl Held {
         for (_, squares) in &all {
             add_scaled(&mut rests, 1.0, squares);
         }
-        let (Fits { mut of_ways, left }, _) = all.swap_remove(folds);
+        let (Fits { mut of_ways, left }, _) = all.swap_remove(parts);
         let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
         let last = rests.len() - 1;
         if listed.variances(&of_ways[last].coefficients).all > UNBOUNDED {
@@ -201,7 +252,8 @@ impl Held {
             rests[last] = least;
         }
         let way = (0..last).rev().fold(last, |best, way| if rests[way] < rests[best] { way } else { best });
-        Self { way, coefficients: of_ways.swap_remove(way).coefficients, rest: rests[way] }
+        let of_parts = all.into_iter().map(|(mut fits, _)| fits.of_ways.swap_remove(way).coefficients).collect();
+        Self { way, coefficients: of_ways.swap_remove(way).coefficients, of_parts, rest: rests[way] }
     }
 }
 
@@ -210,13 +262,31 @@ pub(crate) fn folds_at(rows: usize) -> usize {
     if rows <= MAX_ROWS_OF_FOLDS { FOLDS } else { FOLDS_ABOVE }
 }
 
-/// Assigns rows to folds in pseudo-random order, always in the same way.
-fn folds_of_rows(rows: usize, folds: usize) -> Vec<usize> {
+/// Returns the expansion in orthonormal functions of a term, which may have steps.
+fn expanded(term: &Term, families: &[Family]) -> Vec<(Term, f64)> {
+    let mut all = vec![(Term::new(), 1.0)];
+    for (factor, index) in term {
+        let parts = match &families[*factor] {
+            Family::Stepped(stepped) => stepped.parts(*index),
+            _ => vec![(*index, 1.0)],
+        };
+        let longer = all.iter().flat_map(|(before, c)| {
+            parts.iter().map(move |(index, part)| {
+                (before.iter().copied().chain([(*factor, *index)]).collect::<Term>(), c * part)
+            })
+        });
+        all = longer.collect();
+    }
+    all
+}
+
+/// Assigns rows to parts in pseudo-random order, always in the same way.
+fn parts_of_rows(rows: usize) -> Vec<usize> {
     let mut order: Vec<(u64, usize)> = (0..rows).map(|row| (mixed(row as u64), row)).collect();
     order.sort_unstable();
-    let mut fold_of = vec![0; rows];
-    order.iter().enumerate().for_each(|(place, (_, row))| fold_of[*row] = place % folds);
-    fold_of
+    let mut parts = vec![0; rows];
+    order.iter().enumerate().for_each(|(place, (_, row))| parts[*row] = place % folds_at(rows));
+    parts
 }
 
 /// Mixes the bits of a number (Steele, Lea and Flood 2014).

@@ -11,7 +11,7 @@ use crate::surrogate::basis::Term;
 
 /// Maximum number of rows to which coefficients are fitted: more hardly change some hundred of them, and the others
 /// correct their error.
-const MAX_ROWS: usize = 1 << 12;
+pub const MAX_ROWS: usize = 1 << 12;
 
 /// Degree at which the hyperparameters are fitted.
 pub const FITTED_DEGREE: usize = 14;
