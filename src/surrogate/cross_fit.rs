@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::basis::{Caps, Term, first_terms};
-use super::chaos::{Chaos, Factor, MAX_ROWS, degree_at};
+use super::chaos::{Chaos, Factor, degree_at};
 use super::family::Family;
 use super::fit::{Expansion, MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
 use super::identifiable::IdentifiableTerms;
@@ -14,6 +14,9 @@ pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
     fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
 }
+
+/// Maximum number of rows to which Bayesian chaos is fitted: the others correct its error.
+const ROWS: usize = 1 << 11;
 
 /// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, and the functions of every
 /// factor in these: polynomials of `families`, and steps.
@@ -29,15 +32,16 @@ pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>
     (chaos.basis().factors.iter().map(Factor::with_steps).collect(), chaos.expansions())
 }
 
-/// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then the others
-/// point by point.
+/// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the
+/// others at each point, another one at the next.
 fn rows_of_nets(nets: &[Net]) -> Vec<(usize, usize, usize)> {
     let points = nets.iter().map(Net::points).max().unwrap_or(0);
     let runs = nets.iter().map(Net::runs).max().unwrap_or(0);
     let plain = (0..runs.min(2)).flat_map(|run| (0..points).map(move |point| (run, point)));
-    let swapped = (0..points).flat_map(|point| (2..runs).map(move |run| (run, point)));
+    let others = runs.saturating_sub(2);
+    let swapped = (0..others).flat_map(|turn| (0..points).map(move |point| (2 + (point + turn) % others, point)));
     let rows = plain.chain(swapped).flat_map(|(run, point)| (0..nets.len()).map(move |k| (k, run, point)));
-    rows.filter(|&(k, run, point)| run < nets[k].runs() && point < nets[k].points()).take(MAX_ROWS).collect()
+    rows.filter(|&(k, run, point)| run < nets[k].runs() && point < nets[k].points()).take(ROWS).collect()
 }
 
 /// Returns for every net the expansions of all outputs fitted to the `training` runs of the others; in one round of few

@@ -52,7 +52,7 @@ impl HalfWidths<'_> {
             let moves = own.iter().zip(&all.variance).map(|(own, all)| own - index * all);
             moves.map(|x| x * x).sum::<f64>() / (own.len() * own.len()) as f64
         });
-        let half = self.fitted.chaos.half_width + beyond + NORMAL * squares.sqrt() / variance;
+        let half = self.fitted.chaos.half_width() + beyond + NORMAL * squares.sqrt() / variance;
         Estimate { estimate: index, interval: Some(Interval { low: index - half, high: index + half }) }
     }
 }

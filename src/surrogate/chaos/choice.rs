@@ -52,8 +52,8 @@ pub(crate) struct Chaos {
     pub variances: EffectVariances,
     /// Share of the variance left on held-out rows.
     pub rest: f64,
-    /// Half width of the intervals of its indices.
-    pub half_width: f64,
+    /// Whether it has a product as one term.
+    has_product: bool,
 }
 
 impl Chaos {
@@ -61,7 +61,7 @@ impl Chaos {
     pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
         let parts = parts_of_rows(y.len().min(MAX_ROWS));
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        let mut chosen = if best.rest > EXACT { best.or_with_steps().or_with_product(y, offset) } else { best };
+        let mut chosen = if best.rest > EXACT { best.or_with_steps(Self::half_width).or_with_product(y, offset) } else { best };
         chosen.correct(y);
         chosen
     }
@@ -69,7 +69,7 @@ impl Chaos {
     /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
     pub fn of_parts(factors: Vec<Factor>, y: &[f64], parts: Vec<usize>) -> Self {
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        if best.rest > EXACT { best.or_with_steps() } else { best }
+        if best.rest > EXACT { best.or_with_steps(|fit| fit.rest) } else { best }
     }
 
     /// Returns for each part of the rows the expansion that is fitted to the others, in the functions of
@@ -127,16 +127,15 @@ impl Chaos {
         if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
     }
 
-    /// Returns the fit with steps, if there are any and they leave less.
-    fn or_with_steps(self) -> Self {
+    /// Returns the fit with steps, if there are any and they leave less `open`.
+    fn or_with_steps(self, open: impl Fn(&Self) -> f64) -> Self {
         let mut prior = self.listed.prior.clone();
         add_steps(&mut prior);
         if prior.steps.is_empty() {
             return self;
         }
-        let mut other = Self::chosen(prior, None);
-        other.half_width += other.open_at_steps();
-        if other.half_width < self.half_width { other } else { self }
+        let other = Self::chosen(prior, None);
+        if open(&other) < open(&self) { other } else { self }
     }
 
     /// Returns the share of the variance that the gaps of the rows at steps leave open.
@@ -191,11 +190,16 @@ impl Chaos {
             None => (listed.variances(&coefficients), coefficients),
         };
         let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
-        // A close fit is right where there are no rows too.
+        Self { listed, coefficients, of_parts, variances, rest, has_product: product.is_some() }
+    }
+
+    /// Returns half the width of the intervals of its indices.
+    pub fn half_width(&self) -> f64 {
+        let Self { listed, rest, .. } = self;
+        // A close fit is right where there are no rows too, and a product has its variance from integrals.
         let share = (CLOSE * rest.sqrt()).min(1.0);
-        let unseen = if product.is_some() { 0.0 } else { share * listed.unseen(&coefficients) };
-        let half_width = rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + ROUNDING;
-        Self { listed, coefficients, of_parts, variances, rest, half_width }
+        let unseen = if self.has_product { 0.0 } else { share * listed.unseen(&self.coefficients) };
+        rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + self.open_at_steps() + ROUNDING
     }
 
     /// Returns first-order and total indices. What is left is rather an interaction than a part of one factor alone,

@@ -20,7 +20,6 @@ mod ways;
 
 pub(crate) use basis::{Basis, Factor};
 pub(crate) use choice::{Chaos, folds_at};
-pub(crate) use prior::MAX_ROWS;
 
 /// Returns the largest degree of polynomials at this number of rows: smooth functions become exact as they grow.
 pub(crate) fn degree_at(rows: usize) -> usize {

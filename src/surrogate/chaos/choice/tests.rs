@@ -39,7 +39,7 @@ fn ishigami_is_exact_from_few_rows() {
     for (rows, limit) in [(80, 1e-3), (160, 1e-7), (320, 1e-9)] {
         let of = fitted(3, rows, &Family::Legendre, ishigami);
         let error = error(&of, &[one / all, two / all, 0.0], &[(one + both) / all, two / all, both / all]);
-        assert!(error < limit && error < of.half_width, "{rows}: {error:e} {:e}", of.half_width);
+        assert!(error < limit && error < of.half_width(), "{rows}: {error:e} {:e}", of.half_width());
     }
 }
 
@@ -47,7 +47,7 @@ fn ishigami_is_exact_from_few_rows() {
 fn an_exclusive_or_is_an_interaction() {
     let of = fitted(3, 64, &Family::Legendre, |u| f64::from(u8::from((u[0] > 0.5) != (u[1] > 0.5))));
     let error = error(&of, &[0.0, 0.0, 0.0], &[1.0, 1.0, 0.0]);
-    assert!(error < 0.05 && error < of.half_width, "{error}");
+    assert!(error < 0.05 && error < of.half_width(), "{error}");
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_step_is_one_function() {
         let of = fitted(3, rows, &Family::Legendre, function);
         assert_eq!(of.basis().factors[0].steps().len(), 1);
         let error = error(&of, &first_order, &total);
-        assert!(error < limit && error < of.half_width, "{rows}: {error:e} {:e}", of.half_width);
+        assert!(error < limit && error < of.half_width(), "{rows}: {error:e} {:e}", of.half_width());
     }
 }
 
@@ -85,7 +85,7 @@ fn a_product_is_one_term() {
     let both = (q1 - m1 * m1) * (q2 - m2 * m2);
     let all = v1 + v2 + both;
     let error = error(&of, &[v1 / all, v2 / all, 0.0], &[(v1 + both) / all, (v2 + both) / all, 0.0]);
-    assert!(error < 1e-4 && error < of.half_width, "{error:e} {:e}", of.half_width);
+    assert!(error < 1e-4 && error < of.half_width(), "{error:e} {:e}", of.half_width());
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn rows_beyond_the_fitted_ones_correct_it() {
     let of = fitted(2, 6000, &Family::Legendre, |u| u[0] + u[1] + 12.0 * (u[0] - 0.5) * (u[1] - 0.5) + 0.3 * noise(u));
     let all = 1.0 / 6.0 + 1.0 + 0.045;
     let error = error(&of, &[1.0 / 12.0 / all; 2], &[(1.0 / 12.0 + 1.0 + 0.045) / all; 2]);
-    assert!(error < 0.01 && error < of.half_width, "{error} {}", of.half_width);
+    assert!(error < 0.01 && error < of.half_width(), "{error} {}", of.half_width());
 }
 
 #[test]
