@@ -18,8 +18,8 @@ use crate::surrogate::fit::{Expansion, Training};
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    ChosenTerms, Effects, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_by_chaos, fitted_design, fitted_to_others,
-    takes_surrogates, trials,
+    ChosenTerms, Effects, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_by_chaos, fitted_design,
+    fitted_to_others, takes_surrogates, trials,
 };
 
 /// Maximum number of outputs that are fitted one by one: separate terms gain more than they cost.

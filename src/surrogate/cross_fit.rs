@@ -19,7 +19,7 @@ pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
 const ROWS: usize = 1 << 11;
 
 /// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, and the functions of every
-/// factor in these: polynomials of `families`, and steps.
+/// factor in these: polynomials of `families`, with steps and kinks.
 pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>, Vec<Expansion>) {
     let rows = rows_of_nets(nets);
     let y: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].outputs[run][point]).collect();
@@ -29,7 +29,7 @@ pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>
         Factor::new(family, &u, degree)
     });
     let chaos = Chaos::of_parts(factors.collect(), &y, rows.iter().map(|(k, ..)| *k).collect());
-    (chaos.basis().factors.iter().map(Factor::with_steps).collect(), chaos.expansions())
+    (chaos.basis().factors.iter().map(Factor::with_knots).collect(), chaos.expansions())
 }
 
 /// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the

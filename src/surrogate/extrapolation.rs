@@ -70,9 +70,9 @@ impl Tail {
     /// Returns the steps of a factor with functions of `family`.
     fn steps(family: &Family, degree: usize) -> Vec<Self> {
         let Family::Stepped(stepped) = family else { return Vec::new() };
-        let sides = stepped.steps.iter().map(|step| {
-            let [before, after] = [-STEP_SIDE, STEP_SIDE].map(|by| polynomials(family, &[step.u + by], degree));
-            Self { weights: vec![step.width / 12.0f64.sqrt()], values: before, tangents: after }
+        let sides = stepped.knots.iter().zip(&stepped.widths).map(|(knot, width)| {
+            let [before, after] = [-STEP_SIDE, STEP_SIDE].map(|by| polynomials(family, &[knot.u + by], degree));
+            Self { weights: vec![width / 12.0f64.sqrt()], values: before, tangents: after }
         });
         sides.collect()
     }

@@ -2,6 +2,7 @@ use super::*;
 use crate::correction::EstimateWithInfluences;
 use crate::design::{DesignSettings, Rows};
 use crate::space::Distribution;
+use crate::surrogate::stepped::Knot;
 
 /// Returns outputs of every run and point of each replicate of `design`.
 fn kept(design: &Design, f: impl Fn(&[f64]) -> f64) -> Vec<PointOutputs> {
@@ -71,10 +72,21 @@ fn steps_and_kinks_are_located() {
         assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
     }
     let chosen = corrected.chosen.unwrap();
-    let Family::Stepped(stepped) = &chosen.families[0] else { panic!("{:?}", chosen.families) };
-    let [step] = stepped.steps[..] else { panic!("{stepped:?}") };
-    assert!((step.u - 0.37).abs() <= step.width, "{step:?}");
-    assert_eq!(chosen.families[1..], families[1..]);
+    let knots_of = |factor: usize| -> Vec<(Knot, f64)> {
+        match &chosen.families[factor] {
+            Family::Stepped(stepped) => stepped.knots.iter().copied().zip(stepped.widths.clone()).collect(),
+            _ => Vec::new(),
+        }
+    };
+    let ([(step, width)], [], kinks) = (&knots_of(0)[..], &knots_of(1)[..], &knots_of(2)[..]) else {
+        panic!("{:?}", chosen.families)
+    };
+    assert!(!step.is_kink && (step.u - 0.37).abs() <= *width, "{step:?}");
+    // Some hinges around it are a kink between rows.
+    assert!(
+        !kinks.is_empty() && kinks.iter().all(|(kink, _)| kink.is_kink && (kink.u - 0.6).abs() < 0.05),
+        "{kinks:?}"
+    );
     // Some of the rows, in the same terms.
     let half = design.with_points(64).unwrap();
     let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();

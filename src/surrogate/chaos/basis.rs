@@ -1,4 +1,4 @@
-//! The functions of every factor at the rows: orthonormal polynomials, then steps.
+//! The functions of every factor at the rows: orthonormal polynomials, then steps and hinges.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use super::linear::{LANES, Panels};
 use crate::space::Distribution;
 use crate::surrogate::family::{Family, polynomials};
 use crate::surrogate::orthogonal::rule;
-use crate::surrogate::stepped::{Step, Stepped};
+use crate::surrogate::stepped::{Knot, Stepped};
 use apportion_base::sum::product;
 
 /// One factor.
@@ -18,10 +18,9 @@ pub struct Factor {
     pub places: Vec<f64>,
     /// The polynomials of degree 1, 2, ... at the rows.
     polynomials: Vec<Vec<f64>>,
-    /// The places of steps.
-    steps: Vec<f64>,
-    /// The steps at the rows.
-    step_values: Vec<Vec<f64>>,
+    knots: Vec<Knot>,
+    /// The steps and hinges at the rows.
+    knot_values: Vec<Vec<f64>>,
 }
 
 impl Factor {
@@ -31,21 +30,21 @@ impl Factor {
         let mut polynomials = if degree > 0 { polynomials(family, values, degree) } else { Vec::new() };
         polynomials.truncate(degree);
         let places = if matches!(family, Family::Column(_)) { centred_ranks(values) } else { values.to_vec() };
-        Self { family: family.clone(), places, polynomials, steps: Vec::new(), step_values: Vec::new() }
+        Self { family: family.clone(), places, polynomials, knots: Vec::new(), knot_values: Vec::new() }
     }
 
-    /// Returns the factor without its steps.
-    pub fn without_steps(&self) -> Self {
-        Self { steps: Vec::new(), step_values: Vec::new(), ..self.clone() }
+    /// Returns the factor without its knots.
+    pub fn without_knots(&self) -> Self {
+        Self { knots: Vec::new(), knot_values: Vec::new(), ..self.clone() }
     }
 
-    /// Returns its polynomials with its steps, of which each lies somewhere between two neighbouring rows.
-    pub fn with_steps(&self) -> Family {
-        if self.steps.is_empty() {
+    /// Returns its polynomials with its steps and hinges, of which each lies somewhere between two neighbouring rows.
+    pub fn with_knots(&self) -> Family {
+        if self.knots.is_empty() {
             return self.family.clone();
         }
-        let steps = self.steps.iter().map(|at| Step { u: *at, width: self.gap(*at) });
-        Family::Stepped(Box::new(Stepped::new(&self.family, self.degree(), steps.collect())))
+        let widths = self.knots.iter().map(|knot| self.gap(knot.u)).collect();
+        Family::Stepped(Box::new(Stepped::new(&self.family, self.degree(), self.knots.clone(), widths)))
     }
 
     /// Returns the distance of the rows on either side of a place.
@@ -59,42 +58,37 @@ impl Factor {
         self.polynomials.len()
     }
 
-    /// Returns whether an output may have steps in it: few levels have as many polynomials.
-    pub fn may_have_steps(&self) -> bool {
+    /// Returns whether an output may have knots in it: few levels have as many polynomials.
+    pub fn may_have_knots(&self) -> bool {
         self.degree() > 0 && !matches!(&self.family, Family::Orthogonal(polynomials) if polynomials.has_levels())
     }
 
-    /// Returns the places of its steps.
-    pub fn steps(&self) -> &[f64] {
-        &self.steps
+    pub fn knots(&self) -> &[Knot] {
+        &self.knots
     }
 
-    /// Adds a step.
-    pub fn add_step(&mut self, at: f64) {
-        self.steps.push(at);
-        self.step_values.push(self.step(at, &self.places));
+    pub fn add_knot(&mut self, knot: Knot) {
+        self.knots.push(knot);
+        self.knot_values.push(self.at_knot(knot, &self.places));
     }
 
-    /// Moves a step.
-    pub fn move_step(&mut self, number: usize, at: f64) {
-        self.steps[number] = at;
-        self.step_values[number] = self.step(at, &self.places);
+    pub fn move_knot(&mut self, number: usize, u: f64) {
+        self.knots[number].u = u;
+        self.knot_values[number] = self.at_knot(self.knots[number], &self.places);
     }
 
-    /// Returns 1(u > at) at some places, with mean 0 and variance 1 in the distribution.
-    pub fn step(&self, at: f64, places: &[f64]) -> Vec<f64> {
-        let above = match self.family {
-            Family::Column(_) => self.places.iter().filter(|u| **u > at).count() as f64 / self.places.len() as f64,
-            _ => 1.0 - at,
-        };
-        let scale = (above * (1.0 - above)).sqrt();
-        places.iter().map(|u| (f64::from(u8::from(*u > at)) - above) / scale).collect()
+    /// Returns the step or the hinge at some places, with mean 0 and variance 1 in the distribution.
+    pub fn at_knot(&self, knot: Knot, places: &[f64]) -> Vec<f64> {
+        match self.family {
+            Family::Column(_) => knot.standard_over(&self.places, places),
+            _ => knot.standard(places),
+        }
     }
 
-    /// Returns the values of the function with this index, from 1: of a polynomial, or of a step after them.
+    /// Returns the values of the function with this index, from 1: of a polynomial, or of a knot after them.
     fn function(&self, index: usize) -> &[f64] {
         let polynomials = self.polynomials.len();
-        if index <= polynomials { &self.polynomials[index - 1] } else { &self.step_values[index - polynomials - 1] }
+        if index <= polynomials { &self.polynomials[index - 1] } else { &self.knot_values[index - polynomials - 1] }
     }
 }
 
@@ -120,10 +114,10 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// Returns the polynomials up to `degree` and the steps of every factor at the first `rows` rows.
+    /// Returns the polynomials up to `degree` and the steps and hinges of every factor at the first `rows` rows.
     pub fn kernel(&self, rows: usize, degree: usize) -> Kernel {
         let functions = self.factors.iter().map(|factor| {
-            let columns = factor.polynomials.iter().take(degree).chain(&factor.step_values);
+            let columns = factor.polynomials.iter().take(degree).chain(&factor.knot_values);
             let columns: Vec<&[f64]> = columns.map(|column| &column[..rows]).collect();
             let mut panels = Panels::zeros(columns.len(), rows);
             for p in 0..panels.panels() {
@@ -149,51 +143,51 @@ impl Basis {
 }
 
 /// Returns the functions of a factor at nodes, and weights of these that integrate under its distribution: on panels
-/// that end at the steps and become narrow towards the ends, or the rows of a column.
+/// that end at the knots and become narrow towards the ends, or the rows of a column.
 pub fn integration(factor: &Factor) -> (Vec<Vec<f64>>, Vec<f64>) {
     if matches!(factor.family, Family::Column(_)) {
-        let functions = factor.polynomials.iter().chain(&factor.step_values).cloned().collect();
+        let functions = factor.polynomials.iter().chain(&factor.knot_values).cloned().collect();
         return (functions, vec![1.0 / factor.places.len() as f64; factor.places.len()]);
     }
     let mut ends = vec![0.0, 1.0];
     ends.extend((2..53).flat_map(|k| [0.5f64.powi(k), 1.0 - 0.5f64.powi(k)]));
-    ends.extend(&factor.steps);
+    ends.extend(factor.knots.iter().map(|knot| knot.u));
     ends.sort_by(f64::total_cmp);
     let nodes = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1]));
     let (u, weights): (Vec<f64>, Vec<f64>) = nodes.map(|(u, weight)| (u.min(Distribution::LARGEST_U), weight)).unzip();
     let mut functions = if factor.degree() > 0 { polynomials(&factor.family, &u, factor.degree()) } else { Vec::new() };
     functions.truncate(factor.degree());
-    functions.extend(factor.steps.iter().map(|at| factor.step(*at, &u)));
+    functions.extend(factor.knots.iter().map(|knot| factor.at_knot(*knot, &u)));
     (functions, weights)
 }
 
-/// Inner products of the functions of a factor, which are the identity but for the steps.
+/// Inner products of the functions of a factor, which are the identity but for the knots.
 #[derive(Debug, Clone)]
 pub struct Inner {
     degree: usize,
-    /// For each step its products with the polynomials, then with the steps.
-    steps: Vec<Vec<f64>>,
+    /// For each knot its products with the polynomials, then with the knots.
+    knots: Vec<Vec<f64>>,
 }
 
 impl Inner {
     /// Computes those of a factor.
     pub fn new(factor: &Factor) -> Self {
         let degree = factor.degree();
-        if factor.steps.is_empty() {
-            return Self { degree, steps: Vec::new() };
+        if factor.knots.is_empty() {
+            return Self { degree, knots: Vec::new() };
         }
         let (functions, weights) = integration(factor);
-        let steps = functions[degree..].iter().map(|step| {
-            let weighted: Vec<f64> = step.iter().zip(&weights).map(|(s, w)| s * w).collect();
+        let knots = functions[degree..].iter().map(|knot| {
+            let weighted: Vec<f64> = knot.iter().zip(&weights).map(|(s, w)| s * w).collect();
             functions.iter().map(|f| product(f, &weighted)).collect()
         });
-        Self { degree, steps: steps.collect() }
+        Self { degree, knots: knots.collect() }
     }
 
     /// Returns the inner product of two functions.
     pub fn at(&self, a: usize, b: usize) -> f64 {
         let (a, b) = (a.max(b), a.min(b));
-        if a > self.degree { self.steps[a - self.degree - 1][b - 1] } else { f64::from(u8::from(a == b)) }
+        if a > self.degree { self.knots[a - self.degree - 1][b - 1] } else { f64::from(u8::from(a == b)) }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Held-out rows choose the way, and whether steps stay.
+//! Held-out rows choose the way, and whether steps and kinks stay.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,15 @@ use rayon::prelude::*;
 
 use super::basis::{Basis, Factor};
 use super::kernel::MAX_ORDER;
+use super::knots::add_knots;
 use super::prior::{MAX_ROWS, Prior};
 use super::product::Product;
-use super::steps::add_steps;
 use super::ways::{EffectVariances, Fits, Listed, Way};
 use crate::surrogate::basis::Term;
 use crate::surrogate::family::Family;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::gram::add_scaled;
+use crate::surrogate::stepped::Knot;
 use apportion_base::sum::product;
 
 /// Parts of which each is left out once, and of larger tables.
@@ -21,7 +22,7 @@ const FOLDS: usize = 8;
 const FOLDS_ABOVE: usize = 5;
 const MAX_ROWS_OF_FOLDS: usize = 200;
 
-/// Share of the variance left on held-out rows above which steps are tried.
+/// Share of the variance left on held-out rows above which steps and kinks are tried.
 const EXACT: f64 = 1e-5;
 
 /// The ratio of what a product leaves alone to what the best fit without it leaves, up to which it is tried as one term.
@@ -61,7 +62,8 @@ impl Chaos {
     pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
         let parts = parts_of_rows(y.len().min(MAX_ROWS));
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        let mut chosen = if best.rest > EXACT { best.or_with_steps(Self::half_width).or_with_product(y, offset) } else { best };
+        let mut chosen =
+            if best.rest > EXACT { best.or_with_knots(Self::half_width).or_with_product(y, offset) } else { best };
         chosen.correct(y);
         chosen
     }
@@ -69,13 +71,13 @@ impl Chaos {
     /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
     pub fn of_parts(factors: Vec<Factor>, y: &[f64], parts: Vec<usize>) -> Self {
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        if best.rest > EXACT { best.or_with_steps(|fit| fit.rest) } else { best }
+        if best.rest > EXACT { best.or_with_knots(|fit| fit.rest) } else { best }
     }
 
     /// Returns for each part of the rows the expansion that is fitted to the others, in the functions of
-    /// [`Factor::with_steps`].
+    /// [`Factor::with_knots`].
     pub fn expansions(&self) -> Vec<Expansion> {
-        let families: Vec<Family> = self.basis().factors.iter().map(Factor::with_steps).collect();
+        let families: Vec<Family> = self.basis().factors.iter().map(Factor::with_knots).collect();
         let of_parts = self.of_parts.par_iter().enumerate();
         of_parts.map(|(part, coefficients)| self.expansion(part, coefficients, &families)).collect()
     }
@@ -108,7 +110,7 @@ impl Chaos {
 
     /// Returns the fit with a product as one term, if it leaves less.
     fn or_with_product(self, y: &[f64], offset: f64) -> Self {
-        let factors = self.basis().factors.iter().map(Factor::without_steps).collect();
+        let factors = self.basis().factors.iter().map(Factor::without_knots).collect();
         let basis = Basis { factors, ..self.basis().clone() };
         let rows = self.listed.prior.rows;
         let Some(product) = Product::new(&basis, &y[..rows], offset, |prior| {
@@ -127,11 +129,11 @@ impl Chaos {
         if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
     }
 
-    /// Returns the fit with steps, if there are any and they leave less `open`.
-    fn or_with_steps(self, open: impl Fn(&Self) -> f64) -> Self {
+    /// Returns the fit with steps and kinks, if there are any and they leave less `open`.
+    fn or_with_knots(self, open: impl Fn(&Self) -> f64) -> Self {
         let mut prior = self.listed.prior.clone();
-        add_steps(&mut prior);
-        if prior.steps.is_empty() {
+        add_knots(&mut prior);
+        if prior.knots.is_empty() {
             return self;
         }
         let other = Self::chosen(prior, None);
@@ -142,8 +144,8 @@ impl Chaos {
     fn open_at_steps(&self) -> f64 {
         let mut sum = 0.0;
         for (factor, total) in self.listed.prior.basis.factors.iter().zip(&self.variances.total) {
-            for at in factor.steps() {
-                sum += total / self.variances.all * factor.gap(*at) / (2.0 * at * (1.0 - at));
+            for Knot { u, .. } in factor.knots().iter().filter(|knot| !knot.is_kink) {
+                sum += total / self.variances.all * factor.gap(*u) / (2.0 * u * (1.0 - u));
             }
         }
         sum
@@ -266,7 +268,7 @@ pub(crate) fn folds_at(rows: usize) -> usize {
     if rows <= MAX_ROWS_OF_FOLDS { FOLDS } else { FOLDS_ABOVE }
 }
 
-/// Returns the expansion in orthonormal functions of a term, which may have steps.
+/// Returns the expansion in orthonormal functions of a term, which may have knots.
 fn expanded(term: &Term, families: &[Family]) -> Vec<(Term, f64)> {
     let mut all = vec![(Term::new(), 1.0)];
     for (factor, index) in term {

@@ -4,18 +4,18 @@
 //! normal with a variance that decays with the number of factors and the degrees ([`prior`]). The covariance of the
 //! rows needs no list of terms ([`kernel`]), so that the hyperparameters are those of largest marginal likelihood
 //! ([`optimise`]). The leading terms are listed, and four [`ways`] lead to their coefficients, the last of which is
-//! [least squares](squares). Held-out rows make the [`choice`] among them, and say whether [`steps`] of single factors,
+//! [least squares](squares). Held-out rows make the [`choice`] among them, and say whether [`knots`], steps and kinks of single factors,
 //! or a [`product`] of functions of single factors, join. Indices are sums of squares of coefficients (Sudret 2008).
 
 mod basis;
 mod choice;
 mod kernel;
+mod knots;
 mod linear;
 mod optimise;
 mod prior;
 mod product;
 mod squares;
-mod steps;
 mod ways;
 
 pub(crate) use basis::{Basis, Factor};

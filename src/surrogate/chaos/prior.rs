@@ -1,13 +1,14 @@
 //! The prior of the coefficients, and its hyperparameters by marginal likelihood.
 //!
 //! c_a has variance s_|a| times the product over its factors of w_i l_ik, with l_ik proportional to
-//! exp(-alpha_i (k - 1) + gamma_i [k even]) k^-beta and of sum 1. A step has its own l.
+//! exp(-alpha_i (k - 1) + gamma_i [k even]) k^-beta and of sum 1. A step or a hinge has its own l.
 
 use super::basis::Basis;
 use super::kernel::{Kernel, Variances};
 use super::linear::{Cholesky, Symmetric};
 use super::optimise::{Bounds, minimise};
 use crate::surrogate::basis::Term;
+use crate::surrogate::stepped::Knot;
 
 /// Maximum number of rows to which coefficients are fitted: more hardly change some hundred of them, and the others
 /// correct their error.
@@ -27,7 +28,7 @@ const MORE_ITERATIONS: usize = 12;
 const POOR: f64 = 0.25;
 
 /// The prior of one output. The logarithms of the hyperparameters, and gamma itself, are in this order: w of each
-/// factor, alpha of each, beta, s of each order, noise, gamma of each factor, l of each step.
+/// factor, alpha of each, beta, s of each order, noise, gamma of each factor, l of each knot.
 #[derive(Debug, Clone)]
 pub struct Prior {
     pub basis: Basis,
@@ -37,8 +38,8 @@ pub struct Prior {
     pub rows: usize,
     order: usize,
     theta: Vec<f64>,
-    /// The factor of each step, in the order in which they came.
-    pub steps: Vec<(usize, usize)>,
+    /// The factor of each knot and its number there, in the order in which they came.
+    pub knots: Vec<(usize, usize)>,
 }
 
 impl Prior {
@@ -46,7 +47,7 @@ impl Prior {
     pub fn new(basis: Basis, y: Vec<f64>, order: usize) -> Self {
         let order = order.min(basis.factors.len());
         let rows = basis.rows.min(MAX_ROWS);
-        let mut prior = Self { basis, y, rows, order, theta: Vec::new(), steps: Vec::new() };
+        let mut prior = Self { basis, y, rows, order, theta: Vec::new(), knots: Vec::new() };
         let kernel = prior.basis.kernel(rows.min(FITTED_ROWS), FITTED_DEGREE);
         prior.theta = prior.descend(&kernel, prior.start(&kernel), ITERATIONS);
         let left = prior.left_one_out(&kernel, &prior.theta);
@@ -132,7 +133,7 @@ impl Prior {
         bounds.extend(vec![(-18.0, 8.0); self.order - 1]);
         bounds.push((libm::log(1e-10), 0.0));
         bounds.extend(vec![(-8.0, 8.0); factors]);
-        bounds.extend(vec![(-18.0, 6.0); self.steps.len()]);
+        bounds.extend(vec![(-18.0, 6.0); self.knots.len()]);
         bounds
     }
 
@@ -148,7 +149,7 @@ impl Prior {
             let w = exp(i);
             let count = self.basis.factors[i].degree().min(degree);
             let mut shares = decay(exp(factors + i), exp(2 * factors), theta[self.gamma() + i], count);
-            let own = self.steps.iter().enumerate().filter(|(_, (factor, _))| *factor == i);
+            let own = self.knots.iter().enumerate().filter(|(_, (factor, _))| *factor == i);
             shares.extend(own.map(|(m, _)| exp(self.gamma() + factors + m)));
             shares.iter().map(|share| w * share).collect()
         });
@@ -193,9 +194,9 @@ impl Prior {
             let by_logs: Vec<f64> =
                 derivatives.functions[i].iter().zip(&variances.functions[i]).map(|(g, v)| g * v).collect();
             gradient[i] = by_logs.iter().sum();
-            let (polynomials, steps) = by_logs.split_at(self.basis.factors[i].degree().min(FITTED_DEGREE));
-            let own = self.steps.iter().enumerate().filter(|(_, (factor, _))| *factor == i);
-            for ((m, _), by_log) in own.zip(steps) {
+            let (polynomials, knots) = by_logs.split_at(self.basis.factors[i].degree().min(FITTED_DEGREE));
+            let own = self.knots.iter().enumerate().filter(|(_, (factor, _))| *factor == i);
+            for ((m, _), by_log) in own.zip(knots) {
                 gradient[gamma + factors + m] = *by_log;
             }
             let (sum, all): (f64, f64) =
@@ -254,10 +255,10 @@ impl Prior {
         self.theta[factor] + self.theta[self.beta() + 1]
     }
 
-    /// Adds a step whose l has this logarithm.
-    pub fn add_step(&mut self, factor: usize, at: f64, log_share: f64) {
-        self.steps.push((factor, self.basis.factors[factor].steps().len()));
-        self.basis.factors[factor].add_step(at);
+    /// Adds a knot whose l has this logarithm.
+    pub fn add_knot(&mut self, factor: usize, knot: Knot, log_share: f64) {
+        self.knots.push((factor, self.basis.factors[factor].knots().len()));
+        self.basis.factors[factor].add_knot(knot);
         self.theta.push(log_share);
     }
 

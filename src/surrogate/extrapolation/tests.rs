@@ -1,6 +1,6 @@
 use super::*;
 use crate::space::Distribution;
-use crate::surrogate::stepped::{Step, Stepped};
+use crate::surrogate::stepped::{Knot, Stepped};
 use apportion_base::special::{normal_below, normal_quantile};
 
 fn extrapolation(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> ExtrapolationError {
@@ -29,7 +29,12 @@ fn deviations_of_a_square_from_its_tangents_agree_with_integrals() {
 #[test]
 fn steps_may_lie_anywhere_within_their_width() {
     let of = |width: f64| {
-        Family::Stepped(Box::new(Stepped::new(&Family::Legendre, 6, vec![Step { u: 0.3, width }])))
+        Family::Stepped(Box::new(Stepped::new(
+            &Family::Legendre,
+            6,
+            vec![Knot { u: 0.3, is_kink: false }],
+            vec![width],
+        )))
     };
     // The residual does not matter.
     let error =

@@ -32,7 +32,8 @@ fn influences_are_derivatives_by_the_weights_of_rows() {
     };
     let expansion = Expansion { coefficients: terms.iter().map(coefficient).collect(), terms };
     let factors = X.iter().map(|x| Factor::new(&Family::of_column(x), x, 2)).collect();
-    let Influences { variance, first_order, total } = Influences::new(&Basis { factors, rows: 8, parts: Vec::new() }, &expansion);
+    let Influences { variance, first_order, total } =
+        Influences::new(&Basis { factors, rows: 8, parts: Vec::new() }, &expansion);
     let influences: Vec<Vec<f64>> = [vec![variance], first_order, total].concat();
     for row in 0..8 {
         let step = 1e-4;

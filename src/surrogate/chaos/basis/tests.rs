@@ -3,8 +3,8 @@ use super::*;
 #[test]
 fn inner_products_with_steps_are_integrals() {
     let mut factor = Factor::new(&Family::Legendre, &[0.1, 0.6], 3);
-    factor.add_step(0.25);
-    factor.add_step(0.7);
+    factor.add_knot(Knot { u: 0.25, is_kink: false });
+    factor.add_knot(Knot { u: 0.7, is_kink: false });
     let inner = Inner::new(&factor);
     // Of 1(u > t) with sqrt(3) (2 u - 1): sqrt(3) t (1 - t).
     for (index, t) in [(4, 0.25f64), (5, 0.7)] {
@@ -19,11 +19,11 @@ fn inner_products_with_steps_are_integrals() {
 fn steps_of_a_column_have_mean_0_in_it() {
     let x = [-1.0, -1.0, 0.0, 0.5, 0.5, 0.5, 2.0, 1.5];
     let mut factor = Factor::new(&Family::of_column(&x), &x, 3);
-    factor.add_step(0.3);
+    factor.add_knot(Knot { u: 0.3, is_kink: false });
     let step = factor.function(4);
     assert!(step.iter().sum::<f64>().abs() < 1e-12 && (step.iter().map(|s| s * s).sum::<f64>() - 8.0).abs() < 1e-12);
     let levels = Distribution::discrete(&[1.0, 2.0, 7.0], None).unwrap();
-    assert!(factor.may_have_steps() && !Factor::new(&Family::new(&levels), &x, 3).may_have_steps());
+    assert!(factor.may_have_knots() && !Factor::new(&Family::new(&levels), &x, 3).may_have_knots());
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn a_step_is_one_function() {
     let function = |u: &[f64]| f64::from(u8::from(u[0] > 0.55)) * 2.0 * (0.5 + u[1]) + 2.0 * u[2] - 1.0;
     for (rows, limit) in [(100, 5e-3), (650, 1e-3)] {
         let of = fitted(3, rows, &Family::Legendre, function);
-        assert_eq!(of.basis().factors[0].steps().len(), 1);
+        assert_eq!(of.basis().factors[0].knots().len(), 1);
         let error = error(&of, &first_order, &total);
         assert!(error < limit && error < of.half_width(), "{rows}: {error:e} {:e}", of.half_width());
     }

@@ -1,20 +1,21 @@
-//! Steps of single factors.
+//! Steps and kinks of single factors.
 
 use super::linear::{Cholesky, LANES, Panels};
 use super::prior::{FITTED_DEGREE, FITTED_ROWS, Prior};
 use super::squares::Orthonormal;
+use crate::surrogate::stepped::Knot;
 
-/// Maximum number of steps.
-const MAX_STEPS: usize = 8;
+/// Maximum number of knots.
+const MAX_KNOTS: usize = 8;
 
 /// Gain in the logarithm of the evidence beyond that of the choice among so many places.
 const MIN_GAIN: f64 = 2.0;
 
-/// Rows on either side of a step of which none is considered, and rows between two.
+/// Rows on either side of a knot of which none is considered, and rows between two.
 const APART: usize = 2;
 const ROWS_BETWEEN: usize = 4;
 
-/// Maximum number of values of all steps that are tried.
+/// Maximum number of values of all knots that are tried.
 const MAX_VALUES: usize = 10_000_000;
 
 /// Steps of the optimiser after each.
@@ -25,15 +26,15 @@ const LAST_ITERATIONS: usize = 12;
 const TERMS: usize = 100;
 const PLACES: usize = 50;
 
-/// A step that is tried.
+/// A knot that is tried.
 #[derive(Clone, Copy)]
 struct Place {
     factor: usize,
-    at: f64,
+    knot: Knot,
 }
 
-/// Adds one at a time the step whose own best variance raises the evidence most.
-pub fn add_steps(prior: &mut Prior) {
+/// Adds one at a time the knot whose own best variance raises the evidence most.
+pub fn add_knots(prior: &mut Prior) {
     let rows = prior.rows.min(FITTED_ROWS);
     let places = places(prior, rows);
     if places.is_empty() {
@@ -43,11 +44,11 @@ pub fn add_steps(prior: &mut Prior) {
         .iter()
         .map(|place| {
             let factor = &prior.basis.factors[place.factor];
-            factor.step(place.at, &factor.places[..rows])
+            factor.at_knot(place.knot, &factor.places[..rows])
         })
         .collect();
     let columns = Panels::from_columns(rows, values.iter().map(Vec::as_slice));
-    for _ in 0..MAX_STEPS {
+    for _ in 0..MAX_KNOTS {
         let kernel = prior.basis.kernel(rows, FITTED_DEGREE);
         let Some(factor) = Cholesky::new(prior.fitted_covariance(&kernel)) else { break };
         let products = columns.weighted_sums(&factor.solve(&prior.y[..rows]));
@@ -63,12 +64,12 @@ pub fn add_steps(prior: &mut Prior) {
         if 0.5 * (ratio - 1.0 - libm::log(ratio)) < MIN_GAIN + libm::log(places.len() as f64) {
             break;
         }
-        let Place { factor, at } = places[j];
+        let Place { factor, knot } = places[j];
         let share = libm::log((ratio - 1.0) / squares[j]) - prior.scale_of(factor);
-        prior.add_step(factor, at, share.clamp(-10.0, 3.0));
+        prior.add_knot(factor, knot, share.clamp(-10.0, 3.0));
         prior.improve(rows, ITERATIONS);
     }
-    if prior.rows > rows && !prior.steps.is_empty() {
+    if prior.rows > rows && !prior.knots.is_empty() {
         place_by_all_rows(prior, rows);
     }
 }
@@ -76,10 +77,11 @@ pub fn add_steps(prior: &mut Prior) {
 /// Returns the middles between neighbouring values of the first `rows` rows.
 fn places(prior: &Prior, rows: usize) -> Vec<Place> {
     let mut all = Vec::new();
-    for (factor, of) in prior.basis.factors.iter().enumerate().filter(|(_, of)| of.may_have_steps()) {
+    for (factor, of) in prior.basis.factors.iter().enumerate().filter(|(_, of)| of.may_have_knots()) {
         let middles = middles(&of.places[..rows]);
         let inner = middles.len().saturating_sub(2 * APART);
-        all.extend(middles.into_iter().skip(APART).take(inner).map(|at| Place { factor, at }));
+        let inner = middles.into_iter().skip(APART).take(inner);
+        all.extend(inner.flat_map(|u| [false, true].map(|is_kink| Place { factor, knot: Knot { u, is_kink } })));
     }
     let every = (all.len() * rows).div_ceil(MAX_VALUES).max(1);
     all.into_iter().step_by(every).collect()
@@ -92,22 +94,22 @@ fn middles(u: &[f64]) -> Vec<f64> {
     sorted.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
 }
 
-/// Returns whether there are so few rows between a place and a step of the same factor that both fit those rows only.
+/// Returns whether there are so few rows between a place and a knot of the same factor that both fit those rows only.
 fn is_near(prior: &Prior, place: &Place, rows: usize) -> bool {
     let factor = &prior.basis.factors[place.factor];
-    factor.steps().iter().any(|at| {
-        let (low, high) = (at.min(place.at), at.max(place.at));
+    factor.knots().iter().any(|knot| {
+        let (low, high) = (knot.u.min(place.knot.u), knot.u.max(place.knot.u));
         factor.places[..rows].iter().filter(|u| **u > low && **u < high).count() < ROWS_BETWEEN
     })
 }
 
-/// Moves every step to where all rows leave least to the leading terms.
+/// Moves every knot to where all rows leave least to the leading terms.
 fn place_by_all_rows(prior: &mut Prior, rows: usize) {
     let all = prior.rows;
     let leading = prior.leading_terms((all / 4).min(TERMS));
-    for (factor, number) in prior.steps.clone() {
+    for (factor, number) in prior.knots.clone() {
         let of = &prior.basis.factors[factor];
-        let (at, index) = (of.steps()[number], of.degree() + number + 1);
+        let (at, index) = (of.knots()[number].u, of.degree() + number + 1);
         let few = &of.places[..rows];
         let low = few.iter().copied().filter(|u| *u < at).fold(0.0, f64::max);
         let high = few.iter().copied().filter(|u| *u > at).fold(1.0, f64::min);
@@ -125,7 +127,7 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
         let panels = fixed.len().div_ceil(LANES);
         let mut best = (f64::NEG_INFINITY, at);
         for at in middles(&between).into_iter().take(PLACES) {
-            prior.basis.factors[factor].move_step(number, at);
+            prior.basis.factors[factor].move_knot(number, at);
             let columns: Vec<Vec<f64>> = moving.iter().map(|term| prior.basis.values(term, 0..all)).collect();
             basis.truncate(panels);
             basis.extend(&Panels::from_columns(all, columns.iter().map(Vec::as_slice)));
@@ -134,7 +136,7 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
                 best = (explained, at);
             }
         }
-        prior.basis.factors[factor].move_step(number, best.1);
+        prior.basis.factors[factor].move_knot(number, best.1);
     }
     prior.improve(all.min(2 * FITTED_ROWS), LAST_ITERATIONS);
 }
