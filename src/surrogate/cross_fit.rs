@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::basis::{Caps, Term, first_terms};
-use super::chaos::{Chaos, Factor, degree_at};
+use super::chaos::{CrossFits, Factor, degree_at};
 use super::family::Family;
 use super::fit::{Expansion, MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
 use super::identifiable::IdentifiableTerms;
@@ -28,8 +28,10 @@ pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>
         let u: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].quantiles(run, factor)[point]).collect();
         Factor::new(family, &u, degree)
     });
-    let chaos = Chaos::of_parts(factors.collect(), &y, rows.iter().map(|(k, ..)| *k).collect());
-    (chaos.basis().factors.iter().map(Factor::with_knots).collect(), chaos.expansions())
+    let fits = CrossFits::new(factors.collect(), y, rows.iter().map(|(k, ..)| *k).collect());
+    let families = fits.families();
+    let expansions = fits.expansions(&families);
+    (families, expansions)
 }
 
 /// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the

@@ -114,6 +114,17 @@ pub struct Basis {
 }
 
 impl Basis {
+    /// Returns the number of parts.
+    pub fn count_parts(&self) -> usize {
+        self.parts.iter().max().map_or(0, |last| last + 1)
+    }
+
+    /// Returns the rows that are fitted without one of the parts, and its own; without the number after the last one
+    /// all.
+    pub fn without(&self, part: usize) -> (Vec<usize>, Vec<usize>) {
+        (0..self.parts.len()).partition(|row| self.parts[*row] != part)
+    }
+
     /// Returns the polynomials up to `degree` and the steps and hinges of every factor at the first `rows` rows.
     pub fn kernel(&self, rows: usize, degree: usize) -> Kernel {
         let functions = self.factors.iter().map(|factor| {

@@ -1,18 +1,14 @@
 //! Held-out rows choose the way, and whether steps and kinks stay.
 
-use std::collections::BTreeMap;
-
 use rayon::prelude::*;
 
 use super::basis::{Basis, Factor};
 use super::kernel::MAX_ORDER;
-use super::knots::add_knots;
+use super::knots::with_knots;
 use super::prior::{MAX_ROWS, Prior};
 use super::product::Product;
-use super::ways::{EffectVariances, Fits, Listed, Way};
+use super::ways::{EffectVariances, Fit, Fits, Listed, Way};
 use crate::surrogate::basis::Term;
-use crate::surrogate::family::Family;
-use crate::surrogate::fit::Expansion;
 use crate::surrogate::gram::add_scaled;
 use crate::surrogate::stepped::Knot;
 use apportion_base::sum::product;
@@ -23,7 +19,7 @@ const FOLDS_ABOVE: usize = 5;
 const MAX_ROWS_OF_FOLDS: usize = 200;
 
 /// Share of the variance left on held-out rows above which steps and kinks are tried.
-const EXACT: f64 = 1e-5;
+pub(super) const EXACT: f64 = 1e-5;
 
 /// The ratio of what a product leaves alone to what the best fit without it leaves, up to which it is tried as one term.
 const TRIED: f64 = 10.0;
@@ -33,9 +29,6 @@ const CLEARLY_LESS: f64 = 0.5;
 
 /// Share of the variance that no rows show that counts as unknown, for each unit of the residual's standard deviation.
 const CLOSE: f64 = 10.0;
-
-/// Share of what is left that the smallest coefficients may add to it.
-const DROPPED: f64 = 0.01;
 
 /// Errors of indices by rounding.
 const ROUNDING: f64 = 1e-12;
@@ -47,8 +40,6 @@ const UNBOUNDED: f64 = 10.0;
 pub(crate) struct Chaos {
     listed: Listed,
     coefficients: Vec<f64>,
-    /// The coefficients without each part of the rows.
-    of_parts: Vec<Vec<f64>>,
     /// Its variances, corrected by the rows to which it is not fitted.
     pub variances: EffectVariances,
     /// Share of the variance left on held-out rows.
@@ -62,50 +53,9 @@ impl Chaos {
     pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
         let parts = parts_of_rows(y.len().min(MAX_ROWS));
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        let mut chosen =
-            if best.rest > EXACT { best.or_with_knots(Self::half_width).or_with_product(y, offset) } else { best };
+        let mut chosen = if best.rest > EXACT { best.or_with_knots().or_with_product(y, offset) } else { best };
         chosen.correct(y);
         chosen
-    }
-
-    /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
-    pub fn of_parts(factors: Vec<Factor>, y: &[f64], parts: Vec<usize>) -> Self {
-        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        if best.rest > EXACT { best.or_with_knots(|fit| fit.rest) } else { best }
-    }
-
-    /// Returns for each part of the rows the expansion that is fitted to the others, in the functions of
-    /// [`Factor::with_knots`].
-    pub fn expansions(&self) -> Vec<Expansion> {
-        let families: Vec<Family> = self.basis().factors.iter().map(Factor::with_knots).collect();
-        let of_parts = self.of_parts.par_iter().enumerate();
-        of_parts.map(|(part, coefficients)| self.expansion(part, coefficients, &families)).collect()
-    }
-
-    /// Returns that with these coefficients, without the smallest ones, of which it shows no difference.
-    fn expansion(&self, part: usize, coefficients: &[f64], families: &[Family]) -> Expansion {
-        let Listed { prior, terms, .. } = &self.listed;
-        let mut order: Vec<usize> = (0..terms.len()).filter(|j| coefficients[*j] != 0.0).collect();
-        order.sort_by(|a, b| coefficients[*b].abs().total_cmp(&coefficients[*a].abs()).then(a.cmp(b)));
-        let mut left_out = 0.0;
-        while let Some(last) = order.last() {
-            left_out += coefficients[*last] * coefficients[*last];
-            if left_out > DROPPED * self.rest {
-                break;
-            }
-            order.pop();
-        }
-        let mut sums: BTreeMap<Term, f64> = BTreeMap::new();
-        for j in order {
-            for (term, c) in expanded(&terms[j], families) {
-                *sums.entry(term).or_default() += c * coefficients[j];
-            }
-        }
-        let g = self.listed.combined(coefficients);
-        let left = (0..prior.rows).filter(|row| prior.basis.parts[*row] != part).map(|row| prior.y[row] - g[row]);
-        sums.insert(Term::new(), apportion_base::sum::mean(&left.collect::<Vec<f64>>()));
-        let (terms, coefficients) = sums.into_iter().unzip();
-        Expansion { terms, coefficients }
     }
 
     /// Returns the fit with a product as one term, if it leaves less.
@@ -123,21 +73,17 @@ impl Chaos {
         if product.scale() * product.scale() > TRIED * self.rest {
             return self;
         }
-        let mut left = product.left(&(0..rows).collect::<Vec<usize>>());
+        let mut left = product.left(basis.count_parts());
         left.resize(y.len(), 0.0);
         let other = Self::chosen(Prior::new(basis, left, MAX_ORDER), Some(&product));
         if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
     }
 
-    /// Returns the fit with steps and kinks, if there are any and they leave less `open`.
-    fn or_with_knots(self, open: impl Fn(&Self) -> f64) -> Self {
-        let mut prior = self.listed.prior.clone();
-        add_knots(&mut prior);
-        if prior.knots.is_empty() {
-            return self;
-        }
+    /// Returns the fit with steps and kinks, if there are any and they leave less open.
+    fn or_with_knots(self) -> Self {
+        let Some(prior) = with_knots(&self.listed.prior) else { return self };
         let other = Self::chosen(prior, None);
-        if open(&other) < open(&self) { other } else { self }
+        if other.half_width() < self.half_width() { other } else { self }
     }
 
     /// Returns the share of the variance that the gaps of the rows at steps leave open.
@@ -186,13 +132,13 @@ impl Chaos {
 
     fn chosen(prior: Prior, product: Option<&Product>) -> Self {
         let listed = Listed::new(prior);
-        let Held { coefficients, of_parts, rest, .. } = Held::new(&listed, product);
+        let Held { coefficients, rest, .. } = Held::new(&listed, product);
         let (variances, coefficients) = match product {
             Some(product) => product.joined(&listed, &coefficients),
             None => (listed.variances(&coefficients), coefficients),
         };
         let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
-        Self { listed, coefficients, of_parts, variances, rest, has_product: product.is_some() }
+        Self { listed, coefficients, variances, rest, has_product: product.is_some() }
     }
 
     /// Returns half the width of the intervals of its indices.
@@ -217,8 +163,6 @@ impl Chaos {
 struct Held {
     way: usize,
     coefficients: Vec<f64>,
-    /// The same without each part of the rows.
-    of_parts: Vec<Vec<f64>>,
     /// Mean square that it leaves.
     rest: f64,
 }
@@ -226,64 +170,49 @@ struct Held {
 impl Held {
     /// Chooses among the ways to the coefficients of `listed`, of what a `product` fitted to the same rows leaves.
     fn new(listed: &Listed, product: Option<&Product>) -> Self {
-        let rows = listed.prior.rows;
-        let part_of = &listed.prior.basis.parts;
-        let parts = part_of.iter().max().map_or(0, |last| last + 1);
+        let parts = listed.prior.basis.count_parts();
         // The last one leaves out none.
-        let mut all: Vec<(Fits, Vec<f64>)> = (0..=parts)
-            .into_par_iter()
-            .map(|part| {
-                let (out, fitted): (Vec<usize>, Vec<usize>) = (0..rows).partition(|row| part_of[*row] == part);
-                let left = product.map(|product| product.left(&fitted));
-                let y = left.as_ref().unwrap_or(&listed.prior.y);
-                let fits = listed.fits(&fitted, &out, y);
-                let squares = fits.of_ways.iter().map(|fit| {
-                    out.iter().zip(&fit.predictions).map(|(row, g)| (y[*row] - g).powi(2)).sum::<f64>() / rows as f64
-                });
-                let squares = squares.collect();
-                (fits, squares)
-            })
-            .collect();
-        let mut rests = vec![0.0; Way::ALL.len()];
-        for (_, squares) in &all {
-            add_scaled(&mut rests, 1.0, squares);
-        }
-        let (Fits { mut of_ways, left }, _) = all.swap_remove(parts);
+        let (mut all, mut rests) = fits(listed, parts + 1, product);
+        let Fits { mut of_ways, left } = all.swap_remove(parts);
         let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
         let last = rests.len() - 1;
-        if listed.variances(&of_ways[last].coefficients).all > UNBOUNDED {
+        if is_unbounded(listed, &of_ways[last]) {
             rests[last] = f64::INFINITY;
         } else if left < 0.01 * least {
             // Exact: all rows determine terms that those of the folds did not.
             rests[last] = least;
         }
-        let way = (0..last).rev().fold(last, |best, way| if rests[way] < rests[best] { way } else { best });
-        let of_parts = all.into_iter().map(|(mut fits, _)| fits.of_ways.swap_remove(way).coefficients).collect();
-        Self { way, coefficients: of_ways.swap_remove(way).coefficients, of_parts, rest: rests[way] }
+        let way = best_way(&rests);
+        Self { way, coefficients: of_ways.swap_remove(way).coefficients, rest: rests[way] }
     }
+}
+/// Returns the fits without each of the first `parts` parts of the rows, of what a `product` fitted to the same rows
+/// leaves, and the mean square that each way leaves of the rows that are left out.
+pub(super) fn fits(listed: &Listed, parts: usize, product: Option<&Product>) -> (Vec<Fits>, Vec<f64>) {
+    let parts = (0..parts).into_par_iter().map(|part| {
+        let left = product.map(|product| product.left(part));
+        listed.fits(part, left.as_ref().unwrap_or(&listed.prior.y))
+    });
+    let all: Vec<Fits> = parts.collect();
+    let rest = |way: usize| all.iter().map(|fits| fits.of_ways[way].square).sum::<f64>() / listed.prior.rows as f64;
+    let rests = (0..Way::ALL.len()).map(rest).collect();
+    (all, rests)
+}
+
+/// Returns whether the columns of a fit depend on each other.
+pub(super) fn is_unbounded(listed: &Listed, fit: &Fit) -> bool {
+    listed.variances(&fit.coefficients).all > UNBOUNDED
+}
+
+/// Returns the way that leaves least; of equal ones the last.
+pub(super) fn best_way(rests: &[f64]) -> usize {
+    let last = rests.len() - 1;
+    (0..last).rev().fold(last, |best, way| if rests[way] < rests[best] { way } else { best })
 }
 
 /// Returns the number of parts of the rows, each of which is left out once.
 pub(crate) fn folds_at(rows: usize) -> usize {
     if rows <= MAX_ROWS_OF_FOLDS { FOLDS } else { FOLDS_ABOVE }
-}
-
-/// Returns the expansion in orthonormal functions of a term, which may have knots.
-fn expanded(term: &Term, families: &[Family]) -> Vec<(Term, f64)> {
-    let mut all = vec![(Term::new(), 1.0)];
-    for (factor, index) in term {
-        let parts = match &families[*factor] {
-            Family::Stepped(stepped) => stepped.parts(*index),
-            _ => vec![(*index, 1.0)],
-        };
-        let longer = all.iter().flat_map(|(before, c)| {
-            parts.iter().map(move |(index, part)| {
-                (before.iter().copied().chain([(*factor, *index)]).collect::<Term>(), c * part)
-            })
-        });
-        all = longer.collect();
-    }
-    all
 }
 
 /// Assigns rows to parts in pseudo-random order, always in the same way.

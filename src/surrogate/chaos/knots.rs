@@ -33,8 +33,15 @@ struct Place {
     knot: Knot,
 }
 
+/// Returns the prior with knots, if there are any.
+pub fn with_knots(prior: &Prior) -> Option<Prior> {
+    let mut prior = prior.clone();
+    add_knots(&mut prior);
+    (!prior.knots.is_empty()).then_some(prior)
+}
+
 /// Adds one at a time the knot whose own best variance raises the evidence most.
-pub fn add_knots(prior: &mut Prior) {
+fn add_knots(prior: &mut Prior) {
     let rows = prior.rows.min(FITTED_ROWS);
     let places = places(prior, rows);
     if places.is_empty() {

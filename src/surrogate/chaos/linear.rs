@@ -4,7 +4,6 @@
 //! processor that differs from the others in more than the width of its registers.
 
 use multiversion::multiversion;
-use rayon::prelude::*;
 
 use apportion_base::sum::product;
 
@@ -36,11 +35,12 @@ impl Panels {
     /// Creates a matrix of these columns.
     pub fn from_columns<'a>(rows: usize, columns: impl ExactSizeIterator<Item = &'a [f64]>) -> Self {
         let mut all = Self::zeros(rows, columns.len());
-        for (j, column) in columns.enumerate() {
-            let panel = all.panel_mut(j / LANES);
-            panel.iter_mut().zip(column).for_each(|(row, value)| row[j % LANES] = *value);
-        }
+        columns.enumerate().for_each(|(j, column)| all.set_column(j, column.iter().copied()));
         all
+    }
+
+    pub fn set_column(&mut self, j: usize, values: impl Iterator<Item = f64>) {
+        self.panel_mut(j / LANES).iter_mut().zip(values).for_each(|(row, value)| row[j % LANES] = value);
     }
 
     /// Creates a matrix of these rows.
@@ -162,9 +162,14 @@ pub struct Symmetric {
 }
 
 impl Symmetric {
+    pub fn zeros(size: usize) -> Self {
+        let panels = (0..size.div_ceil(LANES)).map(|p| vec![[0.0; LANES]; (p + 1) * LANES]);
+        Self { size, panels: panels.collect() }
+    }
+
     /// Returns the products a' b of two matrices whose product is symmetric.
     pub fn products(a: &Panels, b: &Panels) -> Self {
-        let panels = (0..b.panels()).into_par_iter().map(|p| products_of_panel(a, b, p));
+        let panels = (0..b.panels()).map(|p| products_of_panel(a, b, p));
         Self { size: b.columns, panels: panels.collect() }
     }
 
@@ -190,17 +195,15 @@ impl Symmetric {
     /// Returns the rows and columns with these indices.
     pub fn at_rows(&self, rows: &[usize]) -> Self {
         let size = rows.len();
-        let panels = (0..size.div_ceil(LANES)).map(|p| {
-            let height = (p + 1) * LANES;
-            let mut panel = vec![[0.0; LANES]; height];
+        let mut all = Self::zeros(size);
+        for (p, panel) in all.panels.iter_mut().enumerate() {
             for (i, row) in panel.iter_mut().enumerate().take(size) {
                 for (l, value) in row.iter_mut().enumerate().take(size - p * LANES) {
                     *value = self.at(rows[i], rows[p * LANES + l]);
                 }
             }
-            panel
-        });
-        Self { size, panels: panels.collect() }
+        }
+        all
     }
 
     /// Adds `weight` times the products of the entries of `of`.
@@ -350,16 +353,14 @@ impl Cholesky {
 
     /// Returns the diagonal of the inverse of L L'.
     pub fn inverse_diagonal(&self) -> Vec<f64> {
-        let panels = (0..self.panels()).into_par_iter();
-        let sums: Vec<Lane> = panels.map(|p| sums_of_squares(&self.inverse_panel(p))).collect();
-        sums.into_iter().flatten().take(self.size).collect()
+        (0..self.panels()).flat_map(|p| sums_of_squares(&self.inverse_panel(p))).take(self.size).collect()
     }
 
     /// Returns for every one of some columns f the sum of squares of L^-1 f.
     pub fn whitened_squares(&self, columns: &Panels) -> Vec<f64> {
-        let panels = (0..columns.panels()).into_par_iter();
-        let sums: Vec<Lane> = panels.map(|p| sums_of_squares(&self.solved(0, columns.panel(p).to_vec()))).collect();
-        sums.into_iter().flatten().take(columns.columns).collect()
+        let panels = 0..columns.panels();
+        let sums = panels.flat_map(|p| sums_of_squares(&self.solved(0, columns.panel(p).to_vec())));
+        sums.take(columns.columns).collect()
     }
 }
 

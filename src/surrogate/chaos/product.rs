@@ -47,7 +47,7 @@ impl Product {
         let standard = centred.iter().map(|log| log / sd).collect();
         let (logarithm, way) = chosen(Prior::new(basis.clone(), standard, 1));
         let mut fitted = Self { logarithm, way, sd, y: y.to_vec(), offset, shift: 0.0, scale: 1.0 };
-        let left = fitted.left(&(0..fitted.logarithm.prior.rows).collect::<Vec<usize>>());
+        let left = fitted.left(basis.count_parts());
         let shift = mean(&left);
         let square = left.iter().map(|e| (e - shift) * (e - shift)).sum::<f64>() / left.len() as f64;
         (fitted.shift, fitted.scale) = (shift, square.sqrt().max(ROUNDING));
@@ -59,25 +59,26 @@ impl Product {
         self.scale
     }
 
-    /// Returns what is left of the outputs if it is fitted to `rows`, in units of its standard deviation.
-    pub fn left(&self, rows: &[usize]) -> Vec<f64> {
-        let logs = self.logs(rows).1;
-        let factor = self.factor(rows, &logs);
+    /// Returns what is left of the outputs if it is fitted without one `part`, in units of its standard deviation.
+    pub fn left(&self, part: usize) -> Vec<f64> {
+        let logs = self.logs(part).1;
+        let factor = self.factor(part, &logs);
         let pairs = self.y.iter().zip(&logs);
         pairs.map(|(y, log)| (y + self.offset - factor * libm::exp(*log) - self.shift) / self.scale).collect()
     }
 
-    /// Returns the coefficients of the logarithm for these rows, and its values at all rows.
-    fn logs(&self, rows: &[usize]) -> (Vec<f64>, Vec<f64>) {
-        let mut fits = self.logarithm.fits(rows, &[], &self.logarithm.prior.y);
+    /// Returns the coefficients of the logarithm without one `part`, and its values at all rows.
+    fn logs(&self, part: usize) -> (Vec<f64>, Vec<f64>) {
+        let mut fits = self.logarithm.fits(part, &self.logarithm.prior.y);
         let coefficients: Vec<f64> =
             fits.of_ways.swap_remove(self.way).coefficients.iter().map(|c| c * self.sd).collect();
         let logs = self.logarithm.combined(&coefficients);
         (coefficients, logs)
     }
 
-    /// Returns by what the exponentials at `rows` must be multiplied, by least squares.
-    fn factor(&self, rows: &[usize], logs: &[f64]) -> f64 {
+    /// Returns by what the exponentials must be multiplied, by least squares without one `part`.
+    fn factor(&self, part: usize, logs: &[f64]) -> f64 {
+        let (rows, _) = self.logarithm.prior.basis.without(part);
         let sums = rows.iter().map(|row| (libm::exp(logs[*row]), self.y[*row] + self.offset));
         let (square, cross) = sums.fold((0.0, 0.0), |(a, b), (g, y)| (a + g * g, b + g * y));
         cross / square
@@ -86,9 +87,9 @@ impl Product {
     /// Returns the variances of its sum with an expansion of what is left in the terms of `listed`, and the
     /// coefficients of the sum in these terms.
     pub fn joined(&self, listed: &Listed, coefficients: &[f64]) -> (EffectVariances, Vec<f64>) {
-        let (of_logarithm, logs) = self.logs(&(0..self.logarithm.prior.rows).collect::<Vec<usize>>());
-        let factor = self.factor(&(0..logs.len()).collect::<Vec<usize>>(), &logs);
         let basis = &listed.prior.basis;
+        let (of_logarithm, logs) = self.logs(basis.count_parts());
+        let factor = self.factor(basis.count_parts(), &logs);
         let mut of_factors = vec![Vec::new(); basis.factors.len()];
         for (term, c) in self.logarithm.terms.iter().zip(of_logarithm) {
             of_factors[term[0].0].push((term[0].1, c));

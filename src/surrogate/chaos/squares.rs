@@ -2,10 +2,12 @@
 
 use multiversion::multiversion;
 
+use apportion_base::sum::product;
+
 use super::linear::{Cholesky, HEIGHT, LANES, Lane, Panels, Symmetric, add, products, sums_of_squares, weighted_sum};
 
 /// Maximum number of columns, and for each row.
-const MAX_COLUMNS: usize = 500;
+const MAX_COLUMNS: usize = 300;
 const COLUMNS_OF_ROW: f64 = 0.6;
 
 /// Rounds, each with the other columns in the order of what is left, up to some number of rows.
@@ -79,6 +81,17 @@ impl Orthonormal {
             before.iter_mut().zip(weights).for_each(|(b, w)| *b -= own[0] * w[j % LANES]);
         }
         b
+    }
+
+    /// Returns what the columns of these scores leave of `y`.
+    fn residual(&self, scores: &[f64], y: &[f64]) -> Vec<f64> {
+        let mut left = y.to_vec();
+        for (panel, scores) in self.panels.iter().zip(scores.chunks(LANES)) {
+            for (left, row) in left.iter_mut().zip(panel) {
+                *left -= product(&row[..scores.len()], scores);
+            }
+        }
+        left
     }
 
     /// Returns the first `count` orthonormal columns, a column for each of their rows.
@@ -163,15 +176,14 @@ impl Squares {
         let mut best = Self { coefficients: vec![0.0; sizes.len()], mean, left: f64::INFINITY };
         let mut order: Vec<usize> = (0..sizes.len()).collect();
         order.sort_by(|a, b| sizes[*b].abs().total_cmp(&sizes[*a].abs()).then(a.cmp(b)));
-        let all = columns_of(columns);
         for _ in 0..ROUNDS {
             let most = ((COLUMNS_OF_ROW * n as f64) as usize).min(MAX_COLUMNS).min(order.len());
-            let ones = vec![1.0; n];
-            let list: Vec<&[f64]> =
-                std::iter::once(&ones[..]).chain(order[..most].iter().map(|j| &all[*j][..])).collect();
-            let basis = Orthonormal::new(&Panels::from_columns(n, list.into_iter()));
+            let mut first = Panels::zeros(n, most + 1);
+            first.set_column(0, std::iter::repeat_n(1.0, n));
+            order[..most].iter().enumerate().for_each(|(k, j)| first.set_column(k + 1, columns.column(*j)));
+            let basis = Orthonormal::new(&first);
             let scores = basis.scores(y);
-            let (count, left, residual) = fewest_left(&basis, &scores, y, most);
+            let (count, left) = fewest_left(&basis, &scores, y, most);
             if count == 0 || left > LESS * best.left {
                 break;
             }
@@ -185,7 +197,8 @@ impl Squares {
                 break;
             }
             let chosen = chosen.to_vec();
-            let Some(next) = by_residual(&all, &others, variances, &basis.transposed(count + 1), &residual) else {
+            let residual = basis.residual(&scores[..=count], y);
+            let Some(next) = by_residual(columns, &others, variances, &basis.transposed(count + 1), &residual) else {
                 break;
             };
             order = chosen.into_iter().chain(next).collect();
@@ -194,28 +207,25 @@ impl Squares {
     }
 }
 
-fn columns_of(columns: &Panels) -> Vec<Vec<f64>> {
-    (0..columns.columns).map(|j| columns.column(j).collect()).collect()
-}
-
-/// Returns the number of columns that, with the constant, leave least on rows left out one by one, that mean square,
-/// and the residuals.
-fn fewest_left(basis: &Orthonormal, scores: &[f64], y: &[f64], most: usize) -> (usize, f64, Vec<f64>) {
+/// Returns the number of columns that, with the constant, leave least on rows left out one by one, and that mean square.
+fn fewest_left(basis: &Orthonormal, scores: &[f64], y: &[f64], most: usize) -> (usize, f64) {
     let n = y.len();
     let (mut left, mut free) = (y.to_vec(), vec![1.0; n]);
-    let mut best = (0, f64::INFINITY, Vec::new());
-    for k in 0..=most {
-        let panel = &basis.panels[k / LANES];
-        let mut sum = 0.0;
+    let mut best = (0, f64::INFINITY);
+    for (panel, (p, scores)) in basis.panels.iter().zip(scores[..=most].chunks(LANES).enumerate()) {
+        let mut sums = [0.0; LANES];
         for ((left, free), row) in left.iter_mut().zip(&mut free).zip(panel) {
-            let q = row[k % LANES];
-            *left -= q * scores[k];
-            *free -= q * q;
-            let out = *left / f64::max(*free, 1e-6);
-            sum += out * out;
+            for ((sum, score), q) in sums.iter_mut().zip(scores).zip(row) {
+                *left -= q * score;
+                *free -= q * q;
+                let out = *left / f64::max(*free, 1e-6);
+                *sum += out * out;
+            }
         }
-        if sum / (n as f64) < best.1 {
-            best = (k, sum / n as f64, left.clone());
+        for (l, sum) in sums[..scores.len()].iter().enumerate() {
+            if sum / (n as f64) < best.1 {
+                best = (p * LANES + l, sum / n as f64);
+            }
         }
     }
     best
@@ -223,7 +233,7 @@ fn fewest_left(basis: &Orthonormal, scores: &[f64], y: &[f64], most: usize) -> (
 
 /// Returns columns in the falling order of their posterior means for the residual of least squares.
 fn by_residual(
-    all: &[Vec<f64>],
+    columns: &Panels,
     others: &[usize],
     variances: &[f64],
     fitted: &Panels,
@@ -232,7 +242,8 @@ fn by_residual(
     let n = residual.len();
     let sum: f64 = others.iter().map(|j| variances[*j]).sum();
     let shares: Vec<f64> = others.iter().map(|j| variances[*j] / sum).collect();
-    let rows = Panels::from_rows(n, others.iter().map(|j| &all[*j][..]));
+    let others_at_rows: Vec<Vec<f64>> = others.iter().map(|j| columns.column(*j).collect()).collect();
+    let rows = Panels::from_rows(n, others_at_rows.iter().map(Vec::as_slice));
     let mut scaled = rows.clone();
     scaled.scale_rows(&shares);
     let mut matrix = Symmetric::products(&scaled, &rows);
@@ -241,10 +252,7 @@ fn by_residual(
     let size = (residual.iter().map(|e| e * e).sum::<f64>() / n as f64).sqrt();
     let scaled_residual: Vec<f64> = residual.iter().map(|e| e / size).collect();
     let weights = Cholesky::new(matrix)?.solve(&scaled_residual);
-    let sizes = others
-        .iter()
-        .zip(&shares)
-        .map(|(j, share)| share * all[*j].iter().zip(&weights).map(|(f, w)| f * w).sum::<f64>());
+    let sizes = others_at_rows.iter().zip(&shares).map(|(f, share)| share * product(f, &weights));
     let mut list: Vec<(f64, usize)> = sizes.map(f64::abs).zip(others.iter().copied()).collect();
     list.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     Some(list.into_iter().map(|(_, j)| j).collect())

@@ -42,6 +42,9 @@ const CHANCE: f64 = 1.0;
 /// The way of every update of the variances.
 const PLAN: [Way; 6] = [Way::Prior, Way::Subsets, Way::Subsets, Way::Subsets, Way::Terms, Way::Terms];
 
+/// The same for many rows, which determine more: the noise is learnt first.
+const PLAN_OF_GRAM: [Way; 5] = [Way::Prior, Way::Prior, Way::Subsets, Way::Terms, Way::Terms];
+
 /// The variances of an expansion.
 #[derive(Debug, Clone)]
 pub struct EffectVariances {
@@ -75,19 +78,37 @@ pub struct Listed {
     variances: Vec<f64>,
     /// A column for each term.
     columns: Panels,
-    /// For few rows the covariance of what is not listed, and noise; for many the inner products of the columns.
-    matrix: Symmetric,
+    /// For few rows the covariance of what is not listed, and noise; for many the inner products of the columns in
+    /// each part of the rows.
+    matrices: Vec<Symmetric>,
     /// The number of the subset of factors of each term.
     subsets: Vec<usize>,
     inner: Vec<Inner>,
 }
 
-/// The coefficients of one way, and what they predict.
+/// The coefficients of one way.
 #[derive(Debug, Clone)]
 pub struct Fit {
     pub coefficients: Vec<f64>,
-    /// The predictions at the rows that were left out.
-    pub predictions: Vec<f64>,
+    /// What they leave of the rows that were left out: the sum of squares.
+    pub square: f64,
+}
+
+impl Fit {
+    fn new(coefficients: Vec<f64>, predictions: &[f64], held: &[f64]) -> Self {
+        let square = held.iter().zip(predictions).map(|(y, g)| (y - g).powi(2)).sum();
+        Self { coefficients, square }
+    }
+}
+
+/// The rows without one part, and the outputs.
+struct Training {
+    columns: Panels,
+    rows: Vec<usize>,
+    y: Vec<f64>,
+    part: usize,
+    out: Vec<usize>,
+    held: Vec<f64>,
 }
 
 /// The fits of all ways.
@@ -113,13 +134,15 @@ impl Listed {
         let (variances, terms): (Vec<f64>, Vec<Term>) = prior.leading_terms(count).into_iter().unzip();
         let values: Vec<Vec<f64>> = terms.par_iter().map(|term| prior.basis.values(term, 0..rows)).collect();
         let columns = Panels::from_columns(rows, values.iter().map(Vec::as_slice));
-        let matrix = if is_small {
+        let matrices = if is_small {
             let by_rows = Panels::from_rows(rows, values.iter().map(Vec::as_slice));
             let mut matrix = prior.covariance();
             matrix.add(-1.0, &covariance(&by_rows, &variances));
-            matrix
+            vec![matrix]
         } else {
-            Symmetric::products(&columns, &columns)
+            let parts = (0..prior.basis.count_parts()).into_par_iter();
+            let of_parts = parts.map(|part| at_rows(&columns, &prior.basis.without(part).1));
+            of_parts.map(|columns| Symmetric::products(&columns, &columns)).collect()
         };
         let mut numbers: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
         let subsets = terms.iter().map(|term| {
@@ -128,29 +151,30 @@ impl Listed {
         });
         let subsets = subsets.collect();
         let inner = prior.basis.factors.iter().map(Inner::new).collect();
-        Self { prior, terms, variances, columns, matrix, subsets, inner }
+        Self { prior, terms, variances, columns, matrices, subsets, inner }
     }
 
     fn is_small(&self) -> bool {
         self.prior.rows <= MAX_ROWS_OF_COVARIANCE
     }
 
-    /// Returns the fits to the outputs `y` at `rows`, with their predictions at the rows `out`.
-    pub fn fits(&self, rows: &[usize], out: &[usize], y: &[f64]) -> Fits {
-        let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
-        let columns = at_rows(&self.columns, rows);
-        let mut fits =
-            if self.is_small() { self.by_covariance(&columns, &y, rows, out) } else { self.by_gram(&columns, &y, out) };
+    /// Returns the fits to the outputs `y` at the rows without one `part`.
+    pub fn fits(&self, part: usize, y: &[f64]) -> Fits {
+        let (rows, out) = self.prior.basis.without(part);
+        let [held, y] = [&out, &rows].map(|rows| rows.iter().map(|row| y[*row]).collect::<Vec<f64>>());
+        let training = Training { columns: at_rows(&self.columns, &rows), rows, y, part, out, held };
+        let mut fits = if self.is_small() { self.by_covariance(&training) } else { self.by_gram(&training) };
+        let Training { columns, y, out, held, .. } = &training;
         // Digits lost: the ways that are left repeat the last one.
         let last = fits.last().cloned().unwrap_or_else(|| {
             let mean = y.iter().sum::<f64>() / y.len() as f64;
-            Fit { coefficients: vec![0.0; self.terms.len()], predictions: vec![mean; out.len()] }
+            Fit::new(vec![0.0; self.terms.len()], &vec![mean; out.len()], held)
         });
         fits.resize(Way::ALL.len() - 1, last);
-        let squares = Squares::new(&columns, &y, &fits[2].coefficients, &self.variances);
-        let predictions = self.predicted(&squares.coefficients, out).into_iter().map(|g| g + squares.mean).collect();
-        fits.push(Fit { coefficients: squares.coefficients, predictions });
-        Fits { of_ways: fits, left: squares.left }
+        let Squares { coefficients, mean, left } = Squares::new(columns, y, &fits[2].coefficients, &self.variances);
+        let predictions = self.predicted(&coefficients, mean, out);
+        fits.push(Fit::new(coefficients, &predictions, held));
+        Fits { of_ways: fits, left }
     }
 
     /// Returns the sum of the terms at the rows.
@@ -158,14 +182,15 @@ impl Listed {
         self.columns.combined(coefficients)
     }
 
-    /// Returns the same at some of them.
-    fn predicted(&self, coefficients: &[f64], rows: &[usize]) -> Vec<f64> {
+    /// Returns the same with a mean at some of them.
+    fn predicted(&self, coefficients: &[f64], mean: f64, rows: &[usize]) -> Vec<f64> {
         let all = self.combined(coefficients);
-        rows.iter().map(|row| all[*row]).collect()
+        rows.iter().map(|row| all[*row] + mean).collect()
     }
 
-    fn by_covariance(&self, columns: &Panels, y: &[f64], rows: &[usize], out: &[usize]) -> Vec<Fit> {
-        let rest = self.matrix.at_rows(rows);
+    fn by_covariance(&self, Training { columns, rows, y, out, held, .. }: &Training) -> Vec<Fit> {
+        let unlisted = &self.matrices[0];
+        let rest = unlisted.at_rows(rows);
         let by_rows = transposed(columns);
         let (mut fits, mut learning) = (Vec::new(), Learning::new(self));
         for (step, way) in PLAN.iter().enumerate() {
@@ -183,35 +208,30 @@ impl Listed {
             };
             if PLAN.get(step + 1) != Some(way) {
                 learning.base.clone_from(&learning.variances);
-                let mut predictions = self.predicted(&learning.posterior.coefficients, out);
+                let mut predictions = self.predicted(&learning.posterior.coefficients, 0.0, out);
                 for (prediction, row) in predictions.iter_mut().zip(out) {
                     *prediction +=
-                        rows.iter().zip(&weights).map(|(other, w)| self.matrix.at(*row, *other) * w).sum::<f64>();
+                        rows.iter().zip(&weights).map(|(other, w)| unlisted.at(*row, *other) * w).sum::<f64>();
                 }
-                fits.push(Fit { coefficients: learning.posterior.coefficients.clone(), predictions });
+                fits.push(Fit::new(learning.posterior.coefficients.clone(), &predictions, held));
             }
         }
         fits
     }
 
-    fn by_gram(&self, columns: &Panels, y: &[f64], out: &[usize]) -> Vec<Fit> {
+    fn by_gram(&self, Training { columns, y, part, out, held, .. }: &Training) -> Vec<Fit> {
         let n = y.len() as f64;
         let mean = y.iter().sum::<f64>() / n;
         let means: Vec<f64> = columns.weighted_sums(&vec![1.0 / n; y.len()]);
         let centred: Vec<f64> = y.iter().map(|y| y - mean).collect();
         let right = columns.weighted_sums(&centred);
         let square: f64 = centred.iter().map(|y| y * y).sum();
-        let mut gram = self.matrix.clone();
-        if !out.is_empty() {
-            let left_out = at_rows(&self.columns, out);
-            gram.add(-1.0, &Symmetric::products(&left_out, &left_out));
-        }
+        let mut gram = Symmetric::zeros(self.terms.len());
+        self.matrices.iter().enumerate().filter(|(k, _)| k != part).for_each(|(_, of_part)| gram.add(1.0, of_part));
         gram.add_outer(-n, &means);
         let (mut fits, mut learning) = (Vec::new(), Learning::new(self));
         let mut noise: f64 = 1e-4;
-        // The noise is learnt first.
-        let plan: Vec<Way> = [Way::Prior; 2].into_iter().chain(PLAN).collect();
-        for (step, way) in plan.iter().enumerate() {
+        for (step, way) in PLAN_OF_GRAM.iter().enumerate() {
             learning.update(*way, self);
             let roots: Vec<f64> = learning.variances.iter().map(|v| v.sqrt()).collect();
             let mut matrix = gram.clone();
@@ -226,12 +246,11 @@ impl Listed {
             let size: f64 = learning.variances.iter().enumerate().map(|(j, v)| v * gram.at(j, j)).sum();
             noise = ((square + fitted) / (n - learnt.iter().sum::<f64>()).max(1.0)).max(1e-14 * size);
             learning.posterior = Posterior { coefficients: c, learnt };
-            if plan.get(step + 1) != Some(way) {
+            if PLAN_OF_GRAM.get(step + 1) != Some(way) {
                 learning.base.clone_from(&learning.variances);
                 let c = &learning.posterior.coefficients;
                 let mean = mean - c.iter().zip(&means).map(|(c, m)| c * m).sum::<f64>();
-                let predictions = self.predicted(c, out).into_iter().map(|g| g + mean).collect();
-                fits.push(Fit { coefficients: c.clone(), predictions });
+                fits.push(Fit::new(c.clone(), &self.predicted(c, mean, out), held));
             }
         }
         fits

@@ -1,0 +1,105 @@
+//! Fits without each part of the rows, for which the others correct them.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::basis::{Basis, Factor};
+use super::choice::{EXACT, best_way, fits, is_unbounded};
+use super::kernel::MAX_ORDER;
+use super::knots::with_knots;
+use super::prior::Prior;
+use super::ways::Listed;
+use crate::surrogate::basis::Term;
+use crate::surrogate::family::Family;
+use crate::surrogate::fit::Expansion;
+
+/// Share of what is left that the smallest coefficients may add to it.
+const DROPPED: f64 = 0.01;
+
+/// Expansions in the same terms, each fitted without one part of the rows. All rows determine their hyperparameters,
+/// steps and kinks.
+pub(crate) struct CrossFits {
+    listed: Listed,
+    /// The coefficients without each part.
+    coefficients: Vec<Vec<f64>>,
+    /// Share of the variance left on the parts that are left out.
+    rest: f64,
+}
+
+impl CrossFits {
+    /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
+    pub fn new(factors: Vec<Factor>, y: Vec<f64>, parts: Vec<usize>) -> Self {
+        let first = Self::of(Prior::new(Basis { factors, rows: y.len(), parts }, y, MAX_ORDER));
+        let knots = if first.rest > EXACT { with_knots(&first.listed.prior) } else { None };
+        let other = knots.map(Self::of).filter(|other| other.rest < first.rest);
+        other.unwrap_or(first)
+    }
+
+    fn of(prior: Prior) -> Self {
+        let listed = Listed::new(prior);
+        let (all, mut rests) = fits(&listed, listed.prior.basis.count_parts(), None);
+        let last = rests.len() - 1;
+        if all.iter().any(|fits| is_unbounded(&listed, &fits.of_ways[last])) {
+            rests[last] = f64::INFINITY;
+        }
+        let way = best_way(&rests);
+        let coefficients = all.into_iter().map(|mut fits| fits.of_ways.swap_remove(way).coefficients).collect();
+        Self { listed, coefficients, rest: rests[way] }
+    }
+
+    /// Returns the functions of every factor in the expansions: polynomials, with steps and kinks.
+    pub fn families(&self) -> Vec<Family> {
+        self.listed.prior.basis.factors.iter().map(Factor::with_knots).collect()
+    }
+
+    /// Returns for each part of the rows the expansion that is fitted to the others, in functions of `families`.
+    pub fn expansions(&self, families: &[Family]) -> Vec<Expansion> {
+        let parts = self.coefficients.par_iter().enumerate();
+        parts.map(|(part, coefficients)| self.expansion(part, coefficients, families)).collect()
+    }
+
+    /// Returns that with these coefficients, without the smallest ones, of which it shows no difference.
+    fn expansion(&self, part: usize, coefficients: &[f64], families: &[Family]) -> Expansion {
+        let Listed { prior, terms, .. } = &self.listed;
+        let mut order: Vec<usize> = (0..terms.len()).filter(|j| coefficients[*j] != 0.0).collect();
+        order.sort_by(|a, b| coefficients[*b].abs().total_cmp(&coefficients[*a].abs()).then(a.cmp(b)));
+        let mut dropped = 0.0;
+        while let Some(last) = order.last() {
+            dropped += coefficients[*last] * coefficients[*last];
+            if dropped > DROPPED * self.rest {
+                break;
+            }
+            order.pop();
+        }
+        let mut sums: BTreeMap<Term, f64> = BTreeMap::new();
+        for j in order {
+            for (term, c) in expanded(&terms[j], families) {
+                *sums.entry(term).or_default() += c * coefficients[j];
+            }
+        }
+        let g = self.listed.combined(coefficients);
+        let left = prior.basis.without(part).0.into_iter().map(|row| prior.y[row] - g[row]);
+        sums.insert(Term::new(), apportion_base::sum::mean(&left.collect::<Vec<f64>>()));
+        let (terms, coefficients) = sums.into_iter().unzip();
+        Expansion { terms, coefficients }
+    }
+}
+
+/// Returns the expansion in orthonormal functions of a term, which may have knots.
+fn expanded(term: &Term, families: &[Family]) -> Vec<(Term, f64)> {
+    let mut all = vec![(Term::new(), 1.0)];
+    for (factor, index) in term {
+        let parts = match &families[*factor] {
+            Family::Stepped(stepped) => stepped.parts(*index),
+            _ => vec![(*index, 1.0)],
+        };
+        let longer = all.iter().flat_map(|(before, c)| {
+            parts.iter().map(move |(index, part)| {
+                (before.iter().copied().chain([(*factor, *index)]).collect::<Term>(), c * part)
+            })
+        });
+        all = longer.collect();
+    }
+    all
+}
