@@ -14,7 +14,7 @@ use crate::estimate::{MomentParts, PointOutputs};
 use crate::result::{RareLevel, SurrogateTrial};
 use crate::run::Totals;
 use crate::study::{Study, SurrogateChoice};
-use crate::surrogate::families;
+use crate::surrogate::{CrossFitted, families};
 
 /// Number of rows on which surrogates of a fast model are tried.
 const TRIAL_ROWS: u64 = 1 << 13;
@@ -32,7 +32,7 @@ pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
 
 /// Computes the surrogate estimates of every output of the runs of `design`, the first of `replicates`, if the study
 /// requests them and the outputs have been kept: for each those with the smallest errors. `longer` is the estimates of
-/// a longer run of the same points, if there was one: the same outputs are corrected, in the same terms.
+/// a longer run of the same points, if there was one: the same outputs are corrected, by the same surrogates.
 pub(crate) fn surrogates(
     study: &Study,
     design: &Design,
@@ -59,7 +59,9 @@ fn surrogates_and_trials(
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
-    let trials = if longer.is_empty() { trials(study, design, replicates, &kept) } else { vec![None; outputs] };
+    let (trials, of_trials) =
+        if longer.is_empty() { trials(study, design, replicates, &kept) } else { (vec![None; outputs], Vec::new()) };
+    let others = if longer.is_empty() { &of_trials } else { longer };
     // The outputs that are corrected. Polynomials continue where runs fail, but the numbers are those of the part of the
     // space where they succeed.
     let mut numbers = Vec::new();
@@ -74,11 +76,11 @@ fn surrogates_and_trials(
         }
     }
     let all: Vec<Vec<&PointOutputs>> = numbers.iter().map(|&number| kept[number].clone()).collect();
-    let longer: Vec<Option<SurrogateEstimates>> =
-        numbers.iter().filter_map(|&number| longer.get(number).cloned()).collect();
+    let known = numbers.iter().map(|&number| others.get(number)?.as_ref()?.fitted.as_ref());
+    let known: Vec<Option<&CrossFitted>> = known.collect();
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
     let mut best = vec![None; outputs];
-    let alone = surrogates_together(design, &families, &layout, &all, &longer);
+    let alone = surrogates_together(design, &families, &layout, &all, &known);
     for (alone, number) in alone.into_iter().zip(numbers) {
         let mut all: Vec<SurrogateEstimates> = alone.into_iter().collect();
         for low in low_fidelity.iter().filter(|low| low.refusal(number, design).is_none()) {
@@ -100,22 +102,24 @@ fn first_points(replicates: &[Totals], number: usize, points: u64) -> Vec<PointO
 }
 
 /// Returns the gain by surrogates of each output, if it is not known beforehand that they are worth their time, by a
-/// fit to some of the base points.
+/// fit to some of the base points, and the estimates from these.
 fn trials(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
     kept: &[Vec<&PointOutputs>],
-) -> Vec<Option<SurrogateTrial>> {
+) -> (Vec<Option<SurrogateTrial>>, Vec<Option<SurrogateEstimates>>) {
+    let none = (vec![None; kept.len()], Vec::new());
     if !study.tries_surrogates(design) {
-        return vec![None; kept.len()];
+        return none;
     }
     let points = parts_of_trial(replicates, 0, design).iter().map(MomentParts::points).min().unwrap_or(0);
-    let Ok(trial) = design.with_points(points) else { return vec![None; kept.len()] };
+    let Ok(trial) = design.with_points(points) else { return none };
     let first: Vec<Vec<PointOutputs>> =
         kept.iter().map(|replicates| replicates.iter().map(|kept| kept.prefix(points)).collect()).collect();
     let first: Vec<Vec<&PointOutputs>> = first.iter().map(|replicates| replicates.iter().collect()).collect();
-    let estimates = surrogates_together(&trial, &families(&study.space), &study.layout(), &first, &[]);
+    let estimates =
+        surrogates_together(&trial, &families(&study.space), &study.layout(), &first, &vec![None; kept.len()]);
     let mut trials = Vec::with_capacity(estimates.len());
     for (number, surrogate) in estimates.iter().enumerate() {
         let parts = parts_of_trial(replicates, number, design);
@@ -125,7 +129,7 @@ fn trials(
         let gain = gains.map_or(0.0, |[first_order, total]| first_order.min(total));
         trials.push(Some(SurrogateTrial { runs: trial.rows(), gain, needed: MIN_GAIN }));
     }
-    trials
+    (trials, estimates)
 }
 
 /// Returns the parts of every replicate of output number `number` that the trial uses.

@@ -4,7 +4,7 @@ use super::error::CorrectionError;
 use super::influenced::EstimateWithInfluences;
 use super::surrogate_use::{LowFidelityUse, Refusal};
 use crate::effect::IndexPair;
-use crate::surrogate::{ChosenTerms, SurrogateTerm};
+use crate::surrogate::{CrossFitted, SurrogateTerm};
 use crate::uncertainty::{Estimate, Interval, Judgement, StandardError};
 
 /// Maximum ratio of the variance of a factor claimed by surrogates to that over the rows: at most 3.2 for smooth
@@ -35,8 +35,8 @@ pub struct SurrogateEstimates {
     pub growth: f64,
     /// The terms with the largest variance.
     pub terms: Vec<SurrogateTerm>,
-    /// All terms, for runs of some of these rows; `None` for outputs that share theirs.
-    pub chosen: Option<ChosenTerms>,
+    /// The surrogates, for fewer or more of the same points; `None` for outputs that share their terms.
+    pub(crate) fitted: Option<CrossFitted>,
     /// Mean number of terms of the surrogates.
     pub term_count: f64,
     /// The low-fidelity model used with the surrogates, if there is one.

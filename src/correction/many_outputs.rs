@@ -12,14 +12,14 @@ use super::nets::{Corrected, estimates, in_chunks};
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::{Caps, Term};
+use crate::surrogate::basis::Caps;
 use crate::surrogate::family::Family;
 use crate::surrogate::fit::{Expansion, Training};
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    ChosenTerms, Effects, MAX_UNBOUNDED_DEGREES, Trial, fewest_points, fitted_by_chaos, fitted_design,
-    fitted_to_others, takes_surrogates, trials,
+    CrossFitted, Effects, Trial, fewest_points, fitted_by_chaos, fitted_design, fitted_to_others, takes_surrogates,
+    trials,
 };
 
 /// Maximum number of outputs that are fitted one by one: separate terms gain more than they cost.
@@ -28,38 +28,36 @@ const MAX_ALONE: usize = 32;
 /// Approximate number of neighbours that share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
 
-/// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms
-/// that a longer run has `chosen` if there is one; `None` if there are too few nets or points, the points are not
-/// Sobol' nets, or an output has no variance.
+/// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates: those that are
+/// `known` if there are any; `None` if there are too few nets or points, the points are not Sobol' nets, or an output
+/// has no variance.
 fn surrogate_estimates(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     replicates: &[&PointOutputs],
-    chosen: Option<&ChosenTerms>,
+    known: Option<&CrossFitted>,
 ) -> Option<SurrogateEstimates> {
     if !takes_surrogates(design, replicates.len()) {
         return None;
     }
     let output = ScaledOutput::new(replicates, design.runs().len(), None)?;
-    fit_outputs(design, families, layout, &output.complete_points(), &[&output], chosen).pop().flatten()
+    fit_outputs(design, families, layout, &output.complete_points(), &[&output], known).pop().flatten()
 }
 
 /// Returns the estimates of [`surrogate_estimates`] for each of `outputs`, which have the outputs of every replicate,
-/// by the terms of the same output in `longer`, those of a longer run, if there are any; above 32 outputs by shared
-/// terms.
+/// by the surrogates that are `known` of it, from more or fewer of the same points, if any are of outputs; above 32
+/// outputs by shared terms.
 pub(crate) fn surrogates_together(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     outputs: &[Vec<&PointOutputs>],
-    longer: &[Option<SurrogateEstimates>],
+    known: &[Option<&CrossFitted>],
 ) -> Vec<Option<SurrogateEstimates>> {
-    let chosen = (0..outputs.len()).map(|number| longer.get(number)?.as_ref()?.chosen.as_ref());
-    let chosen: Vec<Option<&ChosenTerms>> = chosen.collect();
+    let alone = |number: usize| surrogate_estimates(design, families, layout, &outputs[number], known[number]);
     if outputs.len() <= MAX_ALONE || !takes_surrogates(design, outputs[0].len()) {
-        let alone = outputs.iter().zip(chosen);
-        return alone.map(|(output, chosen)| surrogate_estimates(design, families, layout, output, chosen)).collect();
+        return (0..outputs.len()).into_par_iter().map(alone).collect();
     }
     let runs = design.runs().len();
     let scaled: Vec<Option<ScaledOutput>> =
@@ -78,8 +76,7 @@ pub(crate) fn surrogates_together(
         for members in members.chunks(length) {
             let (numbers, scaled): (Vec<usize>, Vec<&ScaledOutput>) = members.iter().copied().unzip();
             let estimates: Vec<Option<SurrogateEstimates>> = if members.len() <= MAX_ALONE {
-                let alone = numbers.par_iter();
-                alone.map(|&k| surrogate_estimates(design, families, layout, &outputs[k], chosen[k])).collect()
+                numbers.par_iter().map(|number| alone(*number)).collect()
             } else {
                 fit_outputs(design, families, layout, &complete, &scaled, None)
             };
@@ -91,15 +88,15 @@ pub(crate) fn surrogates_together(
     all
 }
 
-/// Fits `outputs` with values at the `complete` points of every replicate, with terms chosen together, or in those
-/// already `chosen`.
+/// Fits `outputs` with values at the `complete` points of every replicate, with terms chosen together, unless the
+/// surrogates of the only one are `known`.
 pub(super) fn fit_outputs(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     complete: &[Vec<usize>],
     outputs: &[&ScaledOutput],
-    chosen: Option<&ChosenTerms>,
+    known: Option<&CrossFitted>,
 ) -> Vec<Option<SurrogateEstimates>> {
     let fitted = fitted_design(design);
     let points = fitted.points_per_replicate() as usize;
@@ -110,7 +107,7 @@ pub(super) fn fit_outputs(
     }
     let complete = outputs.par_iter().map(|output| output.at(&complete)).collect();
     let together = Together { design, fitted, families, effects: Effects::new(design, layout), outputs, complete };
-    let fits = together.fit_trials(chosen);
+    let fits = known.map_or_else(|| together.fit_trials(), |known| vec![together.known(known)]);
     (0..outputs.len()).into_par_iter().map(|output| together.correct_output(&fits, output)).collect()
 }
 
@@ -137,15 +134,11 @@ struct Fit {
 }
 
 impl Together<'_> {
-    /// Fits all trials, or the one `chosen` in its terms.
-    fn fit_trials(&self, chosen: Option<&ChosenTerms>) -> Vec<Fit> {
-        if let Some(ChosenTerms { families, of_nets }) = chosen {
-            let trial = Trial { families: families.clone(), unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: 1.0 };
-            return vec![self.fit(trial, Some(of_nets))];
-        }
+    /// Fits all trials.
+    fn fit_trials(&self) -> Vec<Fit> {
         let trials = trials(self.families);
         if self.outputs.len() > 1 {
-            return trials.into_iter().map(|trial| self.fit(trial, None)).collect();
+            return trials.into_iter().map(|trial| self.fit(trial)).collect();
         }
         let mut families: Vec<Vec<Family>> = Vec::new();
         for trial in trials {
@@ -153,31 +146,39 @@ impl Together<'_> {
                 families.push(trial.families);
             }
         }
-        families.into_iter().map(|families| self.fit_alone(&families)).collect()
+        families.into_iter().map(|families| self.known(&self.fit_alone(&families))).collect()
+    }
+
+    /// Returns the fit with surrogates of the only output.
+    fn known(&self, CrossFitted { families, of_nets }: &CrossFitted) -> Fit {
+        let degree = of_nets.iter().flat_map(|of| &of.terms).flatten().map(|(_, degree)| *degree).max().unwrap_or(0);
+        let numbers = (0..of_nets.len()).into_par_iter();
+        Fit {
+            ratio: 1.0,
+            families: families.clone(),
+            degree,
+            nets: numbers.map(|k| self.net(k, families, degree)).collect(),
+            expansions: of_nets.iter().map(|of_net| vec![of_net.clone()]).collect(),
+        }
     }
 
     /// Fits the only output by Bayesian chaos in these polynomials.
-    fn fit_alone(&self, families: &[Family]) -> Fit {
+    fn fit_alone(&self, families: &[Family]) -> CrossFitted {
         let numbers = 0..self.outputs[0].nets.len();
-        let nets: Vec<Net> = numbers.into_par_iter().map(|k| self.net(k, families, 0)).collect();
-        let (families, expansions) = fitted_by_chaos(&nets, families);
-        let degree = largest_degree(expansions.iter().flat_map(|of| &of.terms));
-        let nets = (0..nets.len()).into_par_iter().map(|k| self.net(k, &families, degree)).collect();
-        let expansions = expansions.into_iter().map(|of_net| vec![of_net]).collect();
-        Fit { ratio: 1.0, families, degree, nets, expansions }
+        fitted_by_chaos(&numbers.map(|k| self.net(k, families, 0)).collect::<Vec<_>>(), families)
     }
 
-    /// Fits one trial to all outputs, in the terms `chosen` for each net, if there are any.
-    fn fit(&self, trial: Trial, chosen: Option<&[Vec<Term>]>) -> Fit {
+    /// Fits one trial to all outputs.
+    fn fit(&self, trial: Trial) -> Fit {
         let Trial { families, unbounded_degree, ratio } = trial;
         let caps = Caps::new(&families, unbounded_degree);
         let numbers = (0..self.outputs[0].nets.len()).into_par_iter();
-        let degree = chosen.map_or(caps.degree, |of_nets| largest_degree(of_nets.iter().flatten()));
+        let degree = caps.degree;
         let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, degree)).collect();
         let training = nets.iter().enumerate().map(|(k, net)| {
             Training::of_outputs(net, self.complete.iter().map(|output| output.nets[k].runs.as_slice()).collect())
         });
-        let expansions = fitted_to_others(&nets, &training.collect::<Vec<_>>(), caps, chosen);
+        let expansions = fitted_to_others(&nets, &training.collect::<Vec<_>>(), caps);
         Fit { ratio, families, degree, nets, expansions }
     }
 
@@ -199,7 +200,7 @@ impl Together<'_> {
         let (fit, best) = best?;
         let mut all = estimates(&best, &[], self.outputs[output].scale);
         if self.outputs.len() == 1 {
-            all.chosen = Some(ChosenTerms { families: fit.families.clone(), of_nets: terms_of(&best.expansions) });
+            all.fitted = Some(CrossFitted { families: fit.families.clone(), of_nets: best.expansions });
         }
         Some(all)
     }
@@ -223,14 +224,6 @@ impl Together<'_> {
         let nets = nets.collect();
         Corrected::new(&self.fitted, nets, expansions, &fit.families, &self.effects)
     }
-}
-
-fn largest_degree<'a>(terms: impl Iterator<Item = &'a Term>) -> usize {
-    terms.flatten().map(|(_, degree)| *degree).max().unwrap_or(0)
-}
-
-fn terms_of(expansions: &[Expansion]) -> Vec<Vec<Term>> {
-    expansions.iter().map(|expansion| expansion.terms.clone()).collect()
 }
 
 #[cfg(test)]

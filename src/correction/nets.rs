@@ -130,7 +130,7 @@ pub(super) fn estimates(corrected: &Corrected, low: &[Contributions], Scale { me
         mean: EstimateWithInfluences::linear(mean + sd * scaled_mean.estimate, &[(sd, &scaled_mean)]),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
-        chosen: None,
+        fitted: None,
         misses_levels: false,
         growth: growth(nets),
         terms: leading_terms(expansions, variance.estimate),

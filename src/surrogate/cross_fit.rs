@@ -5,22 +5,31 @@ use rayon::prelude::*;
 use super::basis::{Caps, Term, first_terms};
 use super::chaos::{CrossFits, Factor, degree_at};
 use super::family::Family;
-use super::fit::{Expansion, MAX_ROUNDS, NetSums, Training, fit, selection_rows, without};
+use super::fit::{Expansion, NetSums, Training, fit, selection_rows, without};
 use super::identifiable::IdentifiableTerms;
 use super::net::Net;
 
 /// Returns for every net the expansion fitted to the others.
 pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_to_others(nets, &training, caps, None).into_iter().flatten().collect()
+    fitted_to_others(nets, &training, caps).into_iter().flatten().collect()
+}
+
+/// The surrogates of all nets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CrossFitted {
+    /// The functions of every factor.
+    pub families: Vec<Family>,
+    /// For every net the expansion fitted to the others.
+    pub of_nets: Vec<Expansion>,
 }
 
 /// Maximum number of rows to which Bayesian chaos is fitted: the others correct its error.
 const ROWS: usize = 1 << 11;
 
-/// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, and the functions of every
-/// factor in these: polynomials of `families`, with steps and kinks.
-pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>, Vec<Expansion>) {
+/// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, in polynomials of
+/// `families`, with steps and kinks.
+pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> CrossFitted {
     let rows = rows_of_nets(nets);
     let y: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].outputs[run][point]).collect();
     let degree = degree_at(rows.len());
@@ -30,8 +39,8 @@ pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> (Vec<Family>
     });
     let fits = CrossFits::new(factors.collect(), y, rows.iter().map(|(k, ..)| *k).collect());
     let families = fits.families();
-    let expansions = fits.expansions(&families);
-    (families, expansions)
+    let of_nets = fits.expansions(&families);
+    CrossFitted { families, of_nets }
 }
 
 /// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the
@@ -46,47 +55,24 @@ fn rows_of_nets(nets: &[Net]) -> Vec<(usize, usize, usize)> {
     rows.filter(|&(k, run, point)| run < nets[k].runs() && point < nets[k].points()).take(ROWS).collect()
 }
 
-/// Returns for every net the expansions of all outputs fitted to the `training` runs of the others; in one round of few
-/// candidates if a longer run has `chosen` terms for each net.
-pub(crate) fn fitted_to_others(
-    nets: &[Net],
-    training: &[Training<'_>],
-    caps: Caps<'_>,
-    chosen: Option<&[Vec<Term>]>,
-) -> Vec<Vec<Expansion>> {
+/// Returns for every net the expansions of all outputs fitted to the `training` runs of the others.
+pub(crate) fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Vec<Expansion>> {
     let identifiable = IdentifiableTerms::new(nets, caps);
-    if let Some(chosen) = chosen {
-        let fits = chosen.par_iter().enumerate();
-        let fits =
-            fits.map(|(k, terms)| fitted_without(training, k, &identifiable.retain(terms.clone()), &identifiable, 1));
-        return fits.collect();
-    }
     let (candidates, rows) = (first_round(nets, &identifiable), selection_rows(nets.len() - 1));
     let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
     let fits = (0..nets.len()).into_par_iter();
-    let fits = fits.map(|k| fit(&without(training, k), &candidates, &without(&sums, k), &identifiable, MAX_ROUNDS));
+    let fits = fits.map(|k| fit(&without(training, k), &candidates, &without(&sums, k), &identifiable));
     fits.collect()
-}
-
-/// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates`
-/// on.
-fn fitted_without(
-    training: &[Training<'_>],
-    k: usize,
-    candidates: &[Term],
-    identifiable: &IdentifiableTerms<'_>,
-    max_rounds: usize,
-) -> Vec<Expansion> {
-    let (others, rows) = (without(training, k), selection_rows(training.len() - 1));
-    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, candidates, rows)).collect();
-    fit(&others, candidates, &sums.iter().collect::<Vec<_>>(), identifiable, max_rounds)
 }
 
 /// Returns the expansion fitted to all nets except number `k`.
 pub(crate) fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
     let identifiable = IdentifiableTerms::new(nets, caps);
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_without(&training, k, &first_round(nets, &identifiable), &identifiable, MAX_ROUNDS).swap_remove(0)
+    let (others, rows, candidates) =
+        (without(&training, k), selection_rows(nets.len() - 1), first_round(nets, &identifiable));
+    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+    fit(&others, &candidates, &sums.iter().collect::<Vec<_>>(), &identifiable).swap_remove(0)
 }
 
 /// Returns the candidates of the first round.

@@ -19,7 +19,7 @@ const SELECTION_ROWS_OF_NET: usize = 64;
 const TERMS_PER_ROW: f64 = 0.6;
 
 /// Maximum number of rounds in which terms are chosen, with few factors.
-pub const MAX_ROUNDS: usize = 3;
+const MAX_ROUNDS: usize = 3;
 
 /// An expansion in orthonormal terms.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -93,17 +93,16 @@ pub fn selection_rows(nets: usize) -> usize {
 }
 
 /// Fits an expansion for each output to the nets `training`, at first in the terms `candidates` with their sums over
-/// each of these nets. Terms are chosen for all outputs together, and their number for each output, in at most
-/// `max_rounds` rounds, each with the neighbours of the terms chosen by the best previous one.
+/// each of these nets. Terms are chosen for all outputs together, and their number for each output, in some
+/// rounds, each with the neighbours of the terms chosen by the best previous one.
 pub fn fit(
     training: &[&Training<'_>],
     candidates: &[Term],
     sums: &[&NetSums],
     identifiable: &IdentifiableTerms<'_>,
-    max_rounds: usize,
 ) -> Vec<Expansion> {
     let caps = identifiable.caps;
-    let max_rounds = max_rounds.min(if caps.families.len() <= 10 { MAX_ROUNDS } else { 2 });
+    let max_rounds = if caps.families.len() <= 10 { MAX_ROUNDS } else { 2 };
     let rows = selection_rows(training.len());
     let mut rounds = vec![Selection::new(candidates, sums)];
     let mut candidates = candidates.to_vec();

@@ -16,11 +16,11 @@ pub(crate) mod stepped;
 mod terms;
 
 pub use choice::SurrogateChoice;
-pub use cross_fit::cross_fitted;
+pub use cross_fit::{CrossFitted, cross_fitted};
 pub(crate) use cross_fit::{expansion_without, fitted_by_chaos, fitted_to_others};
 pub use family::Family;
 pub use fit::Expansion;
-pub(crate) use terms::{ChosenTerms, Effects, is_interaction, leading_terms, touches, within};
+pub(crate) use terms::{Effects, is_interaction, leading_terms, touches, within};
 pub use terms::{NamedTerm, SurrogateTerm};
 
 use crate::design::{Design, Sampler};

@@ -5,22 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::basis::{Term, add_to};
-use super::family::Family;
 use super::fit::Expansion;
 use crate::design::Design;
 use crate::effect::Layout;
 
 /// Number of terms that are reported.
 const MAX_LEADING_TERMS: usize = 12;
-
-/// The terms of the surrogates of every net.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChosenTerms {
-    /// The functions of every factor.
-    pub families: Vec<Family>,
-    /// For each net the terms of the surrogate of the others: the factors in each, by index, with their degrees.
-    pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
-}
 
 /// A term of a surrogate.
 #[derive(Debug, Clone, PartialEq)]

@@ -34,7 +34,7 @@ fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         .map(|k| kept(&design, |u| libm::exp(1.0 + u[0] * time(k)) * (1.0 + u[1]) + u[2] * u[2] * (1.0 - time(k))))
         .collect();
     let refs: Vec<Vec<&PointOutputs>> = outputs.iter().map(|of| of.iter().collect()).collect();
-    let together = surrogates_together(&design, &families, &layout, &refs, &[]);
+    let together = surrogates_together(&design, &families, &layout, &refs, &[None; 40]);
     for (k, (of, together)) in refs.iter().zip(&together).enumerate() {
         let alone = surrogate_estimates(&design, &families, &layout, of, None).unwrap();
         let together = together.as_ref().unwrap();
@@ -45,7 +45,7 @@ fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         }
     }
     // Up to 32 outputs are fitted one by one, to the same bits.
-    let few = surrogates_together(&design, &families, &layout, &refs[..3], &[]);
+    let few = surrogates_together(&design, &families, &layout, &refs[..3], &[None; 3]);
     assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1], None));
 }
 
@@ -54,8 +54,8 @@ fn steps_and_kinks_are_located() {
     let settings = DesignSettings { base_samples: 512, ..DesignSettings::default() };
     let design = Design::new(settings, 3, Rows::plain((0..3).map(|factor| vec![factor]).collect())).unwrap();
     let (layout, families) = (Layout::plain(3), vec![Family::Legendre; 3]);
-    let estimates = |design: &Design, kept: &[PointOutputs], chosen: Option<&ChosenTerms>| {
-        surrogate_estimates(design, &families, &layout, &kept.iter().collect::<Vec<_>>(), chosen).unwrap()
+    let estimates = |design: &Design, kept: &[PointOutputs], known: Option<&CrossFitted>| {
+        surrogate_estimates(design, &families, &layout, &kept.iter().collect::<Vec<_>>(), known).unwrap()
     };
     let rough = kept(&design, |u| if u[0] > 0.37 { 1.0 + u[1] } else { 0.0 } + 4.0 * (u[2] - 0.6).abs());
     let corrected = estimates(&design, &rough, None);
@@ -71,15 +71,15 @@ fn steps_and_kinks_are_located() {
             [error(&corrected.effects[factor].first_order, *part), error(&corrected.effects[factor].total, total)];
         assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
     }
-    let chosen = corrected.chosen.unwrap();
+    let fitted = corrected.fitted.unwrap();
     let knots_of = |factor: usize| -> Vec<(Knot, f64)> {
-        match &chosen.families[factor] {
+        match &fitted.families[factor] {
             Family::Stepped(stepped) => stepped.knots.iter().copied().zip(stepped.widths.clone()).collect(),
             _ => Vec::new(),
         }
     };
     let ([(step, width)], [], kinks) = (&knots_of(0)[..], &knots_of(1)[..], &knots_of(2)[..]) else {
-        panic!("{:?}", chosen.families)
+        panic!("{:?}", fitted.families)
     };
     assert!(!step.is_kink && (step.u - 0.37).abs() <= *width, "{step:?}");
     // Some hinges around it are a kink between rows.
@@ -87,12 +87,12 @@ fn steps_and_kinks_are_located() {
         !kinks.is_empty() && kinks.iter().all(|(kink, _)| kink.is_kink && (kink.u - 0.6).abs() < 0.05),
         "{kinks:?}"
     );
-    // Some of the rows, in the same terms.
+    // Some of the rows, by the same surrogates.
     let half = design.with_points(64).unwrap();
     let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();
-    let of_half = estimates(&half, &first, Some(&chosen));
+    let of_half = estimates(&half, &first, Some(&fitted));
     assert!(of_half.explained > 0.99, "{}", of_half.explained);
     // There are no steps where the output is smooth.
     let smooth = kept(&design, |u| libm::exp(u[0]) * libm::sin(9.0 * u[1]) + u[2]);
-    assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().families, families);
+    assert_eq!(estimates(&design, &smooth, None).fitted.unwrap().families, families);
 }

@@ -4,8 +4,8 @@
 /// Number of steps that approximate the curvature.
 const MEMORY: usize = 10;
 
-/// Decrease of the function that ends the search: far less than one unit of the logarithm of a likelihood.
-const SMALL_DECREASE: f64 = 0.05;
+/// Relative decrease of the function that ends the search.
+const SMALL_DECREASE: f64 = 2e-9;
 
 /// Largest component of the projected gradient that ends it.
 const SMALL_GRADIENT: f64 = 1e-5;
@@ -68,8 +68,9 @@ pub fn minimise(function: &mut Function<'_>, start: &[f64], bounds: &[Bounds], i
             memory.drain(..memory.len().saturating_sub(MEMORY));
         }
         let decrease = now.value - next.value;
+        let size = now.value.abs().max(next.value.abs()).max(1.0);
         now = next;
-        if decrease <= SMALL_DECREASE {
+        if decrease <= SMALL_DECREASE * size {
             break;
         }
     }
