@@ -1,4 +1,4 @@
-//! The functions of one factor, orthonormal under its distribution: polynomials, and steps and hinges after them.
+//! The functions of one factor, orthonormal under its distribution: polynomials, and steps and hinges.
 
 use super::orthogonal::{OrthogonalPolynomials, Recurrence, recurred};
 use super::stepped::Stepped;
@@ -19,7 +19,7 @@ pub enum Family {
     Replaced { own: Box<Family>, by: Box<Family> },
     /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
     Column(Box<Recurrence>),
-    /// Polynomials of another family, and steps and hinges after them.
+    /// Polynomials of another family with steps and hinges.
     Stepped(Box<Stepped>),
 }
 
@@ -94,7 +94,7 @@ pub(crate) const MAX_DEGREES: usize = 30;
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     match family {
         Family::Orthogonal(polynomials) => polynomials.columns(u, degree),
-        Family::Stepped(stepped) => stepped.columns(polynomials(&stepped.base, u, degree), u),
+        Family::Stepped(stepped) => stepped.columns(|base, degree| polynomials(base, u, degree), u),
         Family::Column(recurrence) => recurrence.columns(u, degree),
         Family::Replaced { by, .. } => polynomials(by, u, degree),
         Family::Legendre => {
@@ -119,7 +119,7 @@ pub fn upper_polynomials(family: &Family, v: &[f64], degree: usize) -> Vec<Vec<f
         Family::Orthogonal(polynomials) => polynomials.upper_columns(v),
         Family::Stepped(stepped) => {
             let u: Vec<f64> = v.iter().map(|v| 1.0 - v).collect();
-            stepped.columns(upper_polynomials(&stepped.base, v, degree), &u)
+            stepped.columns(|base, degree| upper_polynomials(base, v, degree), &u)
         }
         Family::Replaced { by, .. } => upper_polynomials(by, v, degree),
         Family::Hermite => {

@@ -1,4 +1,5 @@
-//! Polynomials of a factor with steps and kinks: what the polynomials leave of each, orthonormalised in their order.
+//! Polynomials of a factor with steps and kinks, all orthonormalised in their order, steps and kinks first: most of what has
+//! them is a sum of few of the functions then.
 
 use super::family::{Family, polynomials};
 use super::gram::{Square, add_scaled, lower_factor};
@@ -51,25 +52,25 @@ pub struct Stepped {
     pub knots: Vec<Knot>,
     /// The width of the range of quantiles that contains each.
     pub widths: Vec<f64>,
-    /// For each knot the products of its [`Knot::standard`] with the polynomials and the functions of the knots up to it.
+    /// For each [`Knot::standard`], then each polynomial, its products with the functions up to it.
     rows: Vec<Vec<f64>>,
 }
 
 impl Stepped {
-    /// Orthonormalises `knots` after the polynomials of `base` up to a degree, by quadrature.
+    /// Orthonormalises `knots`, and after them the polynomials of `base` up to a degree, by quadrature.
     pub fn new(base: &Family, degree: usize, knots: Vec<Knot>, widths: Vec<f64>) -> Self {
         let halves = (1..=PANELS).map(|k| 0.5f64.powi(k));
         let mut ends: Vec<f64> = halves.flat_map(|h| [h, 1.0 - h]).chain(knots.iter().map(|knot| knot.u)).collect();
         ends.sort_by(f64::total_cmp);
         let (u, weights): (Vec<f64>, Vec<f64>) = ends.windows(2).flat_map(|pair| rule(pair[0], pair[1])).unzip();
-        let mut columns = polynomials(base, &u, degree);
-        columns.extend(knots.iter().map(|knot| knot.standard(&u)));
+        let mut columns: Vec<Vec<f64>> = knots.iter().map(|knot| knot.standard(&u)).collect();
+        columns.extend(polynomials(base, &u, degree));
         for column in &mut columns {
             column.iter_mut().zip(&weights).for_each(|(value, weight)| *value *= weight.sqrt());
         }
         let mut gram = Square::zeros(columns.len());
         gram.add_products(&columns);
-        Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&gram).split_off(degree) }
+        Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&gram) }
     }
 
     /// Returns the largest index of a function.
@@ -77,26 +78,27 @@ impl Stepped {
         self.polynomials + self.knots.len()
     }
 
-    /// Returns the functions at the quantiles `u`, given the polynomials there.
-    pub fn columns(&self, mut columns: Vec<Vec<f64>>, u: &[f64]) -> Vec<Vec<f64>> {
-        columns.truncate(self.polynomials);
-        for (knot, row) in self.knots.iter().zip(&self.rows) {
-            let mut column = knot.standard(u);
-            for (weight, earlier) in row.iter().zip(&columns) {
-                add_scaled(&mut column, -weight, earlier);
+    /// Returns the functions at the quantiles `u`: what is new in each polynomial, then in each knot. `polynomials`
+    /// returns those of the base up to a degree there.
+    pub fn columns(&self, polynomials: impl Fn(&Family, usize) -> Vec<Vec<f64>>, u: &[f64]) -> Vec<Vec<f64>> {
+        let mut columns: Vec<Vec<f64>> = self.knots.iter().map(|knot| knot.standard(u)).collect();
+        columns.extend(polynomials(&self.base, self.polynomials));
+        for (k, row) in self.rows.iter().enumerate() {
+            let (before, own) = columns.split_at_mut(k);
+            for (weight, earlier) in row.iter().zip(before) {
+                add_scaled(&mut own[0], -weight, earlier);
             }
-            column.iter_mut().for_each(|value| *value /= row[columns.len()]);
-            columns.push(column);
+            own[0].iter_mut().for_each(|value| *value /= row[k]);
         }
+        columns.rotate_left(self.knots.len());
         columns
     }
 
     /// Returns the parts of a polynomial, a step or a hinge along the functions.
     pub fn parts(&self, index: usize) -> Vec<(usize, f64)> {
-        match index.checked_sub(self.polynomials + 1) {
-            None => vec![(index, 1.0)],
-            Some(knot) => self.rows[knot].iter().enumerate().map(|(k, part)| (k + 1, *part)).collect(),
-        }
+        let (knots, all) = (self.knots.len(), self.degree());
+        let row = &self.rows[(index - 1 + knots) % all];
+        row.iter().enumerate().map(|(k, part)| ((k + all - knots) % all + 1, *part)).collect()
     }
 }
 
@@ -118,11 +120,17 @@ mod tests {
                 assert!((product - f64::from(u8::from(i == j))).abs() < 1e-6, "{i} {j} {product}");
             }
         }
-        for (knot, index) in knots.into_iter().zip([6, 7]) {
+        let is_sum = |index: usize, exact: &[f64]| {
             let mut sum = vec![0.0; u.len()];
             stepped.parts(index).iter().for_each(|(k, part)| add_scaled(&mut sum, *part, &columns[k - 1]));
+            sum.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-8)
+        };
+        for (k, exact) in polynomials(&Family::Legendre, &u, 5).iter().enumerate() {
+            assert!(is_sum(k + 1, exact), "{k}");
+        }
+        for (knot, index) in knots.into_iter().zip([6, 7]) {
             let (exact, over) = (knot.standard(&u), knot.standard_over(&u, &u));
-            assert!(sum.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-8));
+            assert!(is_sum(index, &exact), "{index}");
             assert!(over.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-8));
         }
     }

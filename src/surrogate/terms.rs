@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::basis::{Term, add_to};
+use super::basis::Term;
 use super::fit::Expansion;
 use crate::design::Design;
 use crate::effect::Layout;
@@ -73,13 +73,13 @@ pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &
 
 /// Returns the terms of all surrogates by their mean share of the variance.
 pub(crate) fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
-    let mut terms: Vec<(&Term, f64)> = Vec::new();
+    let mut terms: BTreeMap<&Term, f64> = BTreeMap::new();
     for expansion in expansions {
         for (term, b) in expansion.varying() {
-            let share = b * b / variance / expansions.len() as f64;
-            add_to(&mut terms, term, share);
+            *terms.entry(term).or_default() += b * b / variance / expansions.len() as f64;
         }
     }
+    let mut terms: Vec<(&Term, f64)> = terms.into_iter().collect();
     terms.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(b.0)));
     terms.truncate(MAX_LEADING_TERMS);
     terms.into_iter().map(|(term, share)| SurrogateTerm { factors: term.clone(), share }).collect()

@@ -62,28 +62,35 @@ impl CrossFits {
     /// Returns that with these coefficients, without the smallest ones, of which it shows no difference.
     fn expansion(&self, part: usize, coefficients: &[f64], families: &[Family]) -> Expansion {
         let Listed { prior, terms, .. } = &self.listed;
-        let mut order: Vec<usize> = (0..terms.len()).filter(|j| coefficients[*j] != 0.0).collect();
-        order.sort_by(|a, b| coefficients[*b].abs().total_cmp(&coefficients[*a].abs()).then(a.cmp(b)));
-        let mut dropped = 0.0;
-        while let Some(last) = order.last() {
-            dropped += coefficients[*last] * coefficients[*last];
-            if dropped > DROPPED * self.rest {
-                break;
-            }
-            order.pop();
-        }
         let mut sums: BTreeMap<Term, f64> = BTreeMap::new();
-        for j in order {
-            for (term, c) in expanded(&terms[j], families) {
-                *sums.entry(term).or_default() += c * coefficients[j];
+        for (term, c) in without_smallest(terms.iter().zip(coefficients), DROPPED * self.rest) {
+            for (term, part) in expanded(term, families) {
+                *sums.entry(term).or_default() += part * c;
             }
         }
+        let list = without_smallest(sums.iter(), DROPPED * self.rest);
+        let mut sums: BTreeMap<Term, f64> = list.into_iter().map(|(term, c)| (term.clone(), c)).collect();
         let g = self.listed.combined(coefficients);
         let left = prior.basis.without(part).0.into_iter().map(|row| prior.y[row] - g[row]);
         sums.insert(Term::new(), apportion_base::sum::mean(&left.collect::<Vec<f64>>()));
         let (terms, coefficients) = sums.into_iter().unzip();
         Expansion { terms, coefficients }
     }
+}
+
+/// Returns terms without those of the smallest coefficients, whose squares have at most this `sum`.
+fn without_smallest<'a>(terms: impl Iterator<Item = (&'a Term, &'a f64)>, sum: f64) -> Vec<(&'a Term, f64)> {
+    let mut list: Vec<(&Term, f64)> = terms.filter(|(_, c)| **c != 0.0).map(|(term, c)| (term, *c)).collect();
+    list.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()).then(a.0.cmp(b.0)));
+    let mut dropped = 0.0;
+    while let Some((_, c)) = list.last() {
+        dropped += c * c;
+        if dropped > sum {
+            break;
+        }
+        list.pop();
+    }
+    list
 }
 
 /// Returns the expansion in orthonormal functions of a term, which may have knots.
