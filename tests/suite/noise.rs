@@ -286,9 +286,9 @@ fn the_example_says_which_question_each_number_answers() {
         let of_mean = output.noise.iter().flat_map(|noise| &noise.of_mean);
         of_mean.flat_map(|of| [of.effect.first_order.unwrap().estimate, of.effect.total.unwrap().estimate]).collect()
     };
-    // Minutes are rounded on their way through the file.
+    // Minutes are rounded on their way through the file, and the choice of terms may be another one.
     let (one, two) = (estimates(&one), estimates(&result("two")));
-    assert!(one.len() == 6 && one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-12), "{one:?} {two:?}");
+    assert!(one.len() == 6 && one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-9), "{one:?} {two:?}");
 }
 
 /// The noise has a line among the indices over all outputs together: it is not a factor, and the total indices of all sum to 1 with it.
