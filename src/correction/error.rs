@@ -27,8 +27,7 @@ const DEPENDENCE: f64 = 2.0;
 const PRUDENT_FREEDOM: f64 = 8.0;
 const PRUDENT_DEPENDENCE: f64 = 4.0;
 
-/// Half width of an interval about an index due to rounding alone: the terms of a surrogate are not exactly orthonormal
-/// in their sums.
+/// Standard error of an index by rounding alone: the terms of a surrogate are not exactly orthonormal in their sums.
 const ROUNDING: f64 = 1e-12;
 
 /// Degrees of freedom of a side over the share of its largest contributions, sum x^4/(sum x^2)^2.
@@ -120,7 +119,8 @@ impl CorrectionError {
     /// Returns the standard error of the number.
     pub fn error(&self, of: &EstimateWithInfluences) -> StandardError {
         let mut model = self.error_of_parts(&of.parts);
-        model.error = libm::hypot(model.error, of.beyond);
+        let rounding = ROUNDING * of.estimate.abs().max(self.unit);
+        model.error = libm::hypot(libm::hypot(model.error, of.beyond), rounding);
         if of.low.is_empty() {
             return model;
         }
@@ -150,7 +150,7 @@ impl CorrectionError {
         // missing from an estimate that is too small.
         let [low, high] = self.concentration.map(|concentration| {
             let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
-            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))
+            t_quantile(freedom).map(|quantile| quantile * error.error)
         });
         let interval = low.zip(high).map(|(low, high)| {
             let q = if self.skewed && estimate > 0.0 { (high / estimate).min(1.0) } else { 0.0 };

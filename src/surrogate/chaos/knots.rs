@@ -1,7 +1,7 @@
 //! Steps and kinks of single factors.
 
 use super::linear::{Cholesky, LANES, Panels};
-use super::prior::{FITTED_DEGREE, FITTED_ROWS, Prior};
+use super::prior::{FITTED_DEGREE, Prior};
 use super::squares::Orthonormal;
 use crate::surrogate::stepped::Knot;
 
@@ -42,7 +42,7 @@ pub fn with_knots(prior: &Prior) -> Option<Prior> {
 
 /// Adds one at a time the knot whose own best variance raises the evidence most.
 fn add_knots(prior: &mut Prior) {
-    let rows = prior.rows.min(FITTED_ROWS);
+    let rows = prior.fitted_rows();
     let places = places(prior, rows);
     if places.is_empty() {
         return;
@@ -145,5 +145,5 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
         }
         prior.basis.factors[factor].move_knot(number, best.1);
     }
-    prior.improve(all.min(2 * FITTED_ROWS), LAST_ITERATIONS);
+    prior.improve(all.min(2 * rows), LAST_ITERATIONS);
 }

@@ -17,8 +17,10 @@ pub const MAX_ROWS: usize = 1 << 12;
 /// Degree at which the hyperparameters are fitted.
 pub const FITTED_DEGREE: usize = 14;
 
-/// Rows that determine them first; twice as many improve them.
-pub const FITTED_ROWS: usize = 200;
+/// Rows that determine them first, of up to so many factors: above it fewer, since each factor costs the square of the rows.
+/// Twice as many improve them.
+const FITTED_ROWS: usize = 200;
+const MANY_FACTORS: usize = 64;
 
 /// Steps of the optimiser for them.
 const ITERATIONS: usize = 60;
@@ -48,7 +50,8 @@ impl Prior {
         let order = order.min(basis.factors.len());
         let rows = basis.rows.min(MAX_ROWS);
         let mut prior = Self { basis, y, rows, order, theta: Vec::new(), knots: Vec::new() };
-        let kernel = prior.basis.kernel(rows.min(FITTED_ROWS), FITTED_DEGREE);
+        let fitted = prior.fitted_rows();
+        let kernel = prior.basis.kernel(fitted, FITTED_DEGREE);
         prior.theta = prior.descend(&kernel, prior.start(&kernel), ITERATIONS);
         let left = prior.left_one_out(&kernel, &prior.theta);
         // All may count as noise there: once more from rough interactions.
@@ -58,16 +61,22 @@ impl Prior {
                 prior.theta = other;
             }
         }
-        if rows > FITTED_ROWS {
+        if rows > fitted {
             prior.refine();
         }
         prior
     }
 
+    /// Returns the number of rows that determine the hyperparameters first.
+    pub fn fitted_rows(&self) -> usize {
+        let many = (self.basis.factors.len() as f64 / MANY_FACTORS as f64).max(1.0);
+        self.rows.min((FITTED_ROWS as f64 / many.sqrt()) as usize)
+    }
+
     /// Improves the hyperparameters by more rows. The noise of the first ones may be far too small, so that a line
     /// search in it comes first.
     fn refine(&mut self) {
-        let kernel = self.basis.kernel(self.rows.min(2 * FITTED_ROWS), FITTED_DEGREE);
+        let kernel = self.basis.kernel(self.rows.min(2 * self.fitted_rows()), FITTED_DEGREE);
         let mut best = (f64::INFINITY, self.theta.clone());
         for k in 0..6 {
             let mut theta = self.theta.clone();
