@@ -41,7 +41,7 @@ fn surrogate_estimates(
     if !takes_surrogates(design, replicates.len()) {
         return None;
     }
-    let output = ScaledOutput::new(replicates, design.runs().len(), None)?;
+    let output = ScaledOutput::new(replicates, design.runs().len(), known.map(|known| known.scale))?;
     fit_outputs(design, families, layout, &output.complete_points(), &[&output], known).pop().flatten()
 }
 
@@ -150,7 +150,7 @@ impl Together<'_> {
     }
 
     /// Returns the fit with surrogates of the only output.
-    fn known(&self, CrossFitted { families, of_nets }: &CrossFitted) -> Fit {
+    fn known(&self, CrossFitted { families, of_nets, .. }: &CrossFitted) -> Fit {
         let degree = of_nets.iter().flat_map(|of| &of.terms).flatten().map(|(_, degree)| *degree).max().unwrap_or(0);
         let numbers = (0..of_nets.len()).into_par_iter();
         Fit {
@@ -165,7 +165,8 @@ impl Together<'_> {
     /// Fits the only output by Bayesian chaos in these polynomials.
     fn fit_alone(&self, families: &[Family]) -> CrossFitted {
         let numbers = 0..self.outputs[0].nets.len();
-        fitted_by_chaos(&numbers.map(|k| self.net(k, families, 0)).collect::<Vec<_>>(), families)
+        let nets: Vec<Net> = numbers.map(|k| self.net(k, families, 0)).collect();
+        fitted_by_chaos(&nets, families, self.outputs[0].scale)
     }
 
     /// Fits one trial to all outputs.
@@ -200,7 +201,8 @@ impl Together<'_> {
         let (fit, best) = best?;
         let mut all = estimates(&best, &[], self.outputs[output].scale);
         if self.outputs.len() == 1 {
-            all.fitted = Some(CrossFitted { families: fit.families.clone(), of_nets: best.expansions });
+            let (scale, families) = (self.outputs[output].scale, fit.families.clone());
+            all.fitted = Some(CrossFitted { scale, families, of_nets: best.expansions });
         }
         Some(all)
     }

@@ -8,6 +8,7 @@ use super::family::Family;
 use super::fit::{Expansion, NetSums, Training, fit, selection_rows, without};
 use super::identifiable::IdentifiableTerms;
 use super::net::Net;
+use super::outputs::Scale;
 
 /// Returns for every net the expansion fitted to the others.
 pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
@@ -18,6 +19,8 @@ pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
 /// The surrogates of all nets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossFitted {
+    /// The units of the output.
+    pub(crate) scale: Scale,
     /// The functions of every factor.
     pub families: Vec<Family>,
     /// For every net the expansion fitted to the others.
@@ -27,9 +30,9 @@ pub struct CrossFitted {
 /// Maximum number of rows to which Bayesian chaos is fitted: the others correct its error.
 const ROWS: usize = 1 << 11;
 
-/// Returns for every net the expansion of its output fitted to the others by Bayesian chaos, in polynomials of
-/// `families`, with steps and kinks.
-pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> CrossFitted {
+/// Returns for every net the expansion of its output, in units of `scale`, fitted to the others by Bayesian chaos, in
+/// polynomials of `families`, with steps and kinks.
+pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family], scale: Scale) -> CrossFitted {
     let rows = rows_of_nets(nets);
     let y: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].outputs[run][point]).collect();
     let degree = degree_at(rows.len());
@@ -40,7 +43,7 @@ pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family]) -> CrossFitted 
     let fits = CrossFits::new(factors.collect(), y, rows.iter().map(|(k, ..)| *k).collect());
     let families = fits.families();
     let of_nets = fits.expansions(&families);
-    CrossFitted { families, of_nets }
+    CrossFitted { scale, families, of_nets }
 }
 
 /// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the

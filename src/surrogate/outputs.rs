@@ -38,7 +38,7 @@ impl OutputTable {
 }
 
 /// The mean and standard deviation by which outputs are scaled.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
     pub mean: f64,
     pub sd: f64,
