@@ -30,13 +30,13 @@ pub(crate) struct CrossFits {
 impl CrossFits {
     /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
     pub fn new(factors: Vec<Factor>, y: Vec<f64>, parts: Vec<usize>) -> Self {
-        let first = Self::of(Prior::new(Basis { factors, rows: y.len(), parts }, y, MAX_ORDER));
+        let first = Self::fitted(Prior::new(Basis { factors, rows: y.len(), parts }, y, MAX_ORDER));
         let knots = if first.rest > EXACT { with_knots(&first.listed.prior) } else { None };
-        let other = knots.map(Self::of).filter(|other| other.rest < first.rest);
+        let other = knots.map(Self::fitted).filter(|other| other.rest < first.rest);
         other.unwrap_or(first)
     }
 
-    fn of(prior: Prior) -> Self {
+    fn fitted(prior: Prior) -> Self {
         let listed = Listed::new(prior);
         let (all, mut rests) = fits(&listed, listed.prior.basis.count_parts(), None);
         let last = rests.len() - 1;

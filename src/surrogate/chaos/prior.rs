@@ -20,7 +20,7 @@ pub const FITTED_DEGREE: usize = 14;
 /// Rows that determine them first, of up to so many factors: above it fewer, since each factor costs the square of the rows.
 /// Twice as many improve them.
 const FITTED_ROWS: usize = 200;
-const MANY_FACTORS: usize = 64;
+const MAX_FACTORS: usize = 64;
 
 /// Steps of the optimiser for them.
 const ITERATIONS: usize = 60;
@@ -69,7 +69,7 @@ impl Prior {
 
     /// Returns the number of rows that determine the hyperparameters first.
     pub fn fitted_rows(&self) -> usize {
-        let many = (self.basis.factors.len() as f64 / MANY_FACTORS as f64).max(1.0);
+        let many = (self.basis.factors.len() as f64 / MAX_FACTORS as f64).max(1.0);
         self.rows.min((FITTED_ROWS as f64 / many.sqrt()) as usize)
     }
 
