@@ -71,7 +71,7 @@ impl Document {
 
     /// Writes the page, the JSON and CSV files and the charts as SVG to `folder`; returns the path of the page.
     fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<PathBuf> {
-        let artefacts = Artefacts::new(folder).with_charts(&[ChartFormat::Svg]);
+        let artefacts = Artefacts { formats: vec![ChartFormat::Svg], ..Artefacts::new(folder) };
         let written = py.detach(|| artefacts.write(&self.document));
         written.map(|written| written.page).map_err(failed)
     }

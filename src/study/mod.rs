@@ -11,6 +11,7 @@ mod options;
 mod rules;
 mod subject;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use crate::surrogate::SurrogateChoice;
@@ -51,6 +52,10 @@ pub struct Study {
 /// The file that a study was read from, or a description of a study built in code.
 #[derive(Debug, Clone, Default)]
 pub struct StudySource {
+    /// The path of the file; empty for a study built in code.
+    pub path: PathBuf,
+    /// The tables of measured values that it names.
+    pub measured: Vec<PathBuf>,
     /// The text of the file.
     pub text: String,
     /// Its SHA-256 in hexadecimal.
@@ -186,6 +191,13 @@ impl Study {
     /// Returns the changes made to the file on the command line, as given.
     pub fn overrides(&self) -> &[String] {
         &self.source.overrides
+    }
+
+    /// Returns all files that the study reads: its own first, those of its models, and measured values.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let models = std::iter::once(&self.subject).chain(self.low_fidelities.iter().map(|low| &low.subject));
+        let own = std::iter::once(&self.source.path).chain(&self.source.measured).cloned();
+        own.chain(models.flat_map(|subject| subject.files())).collect()
     }
 
     /// Returns the text of the file.

@@ -131,9 +131,10 @@ pub fn succeed(arguments: &[&str]) -> String {
     stdout(&output)
 }
 
-/// Names of the files in a folder.
+/// Names of the files in a folder, without the hidden lists of results, whose lines have no order.
 pub fn files(folder: &Path) -> BTreeSet<String> {
-    std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    let names = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| !name.ends_with(".written")).collect()
 }
 
 /// Every file in `folder` and in its folder of charts, as paths below it.

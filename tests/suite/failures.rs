@@ -296,7 +296,7 @@ fn points_that_are_wrong() {
     ] {
         // Latin-1: of a letter beyond ASCII, bytes that are no text in UTF-8.
         let path = folder.with("points.csv", points.chars().map(|c| c as u8).collect::<Vec<u8>>());
-        let output = apportion(&["evaluate", text(&study), text(&path), "-o", text(&target)]);
+        let output = apportion(&["evaluate", text(&study), text(&path), "--force", "-o", text(&target)]);
         messages.ended(&format!("{points:?}"), 2, &output);
         assert!(stderr(&output).contains("points.csv"), "{points:?}");
         assert_eq!(std::fs::read_to_string(&target).unwrap(), "old", "the target is what it was");

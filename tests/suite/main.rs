@@ -39,6 +39,7 @@ mod messages;
 mod metamorphic;
 mod names;
 mod noise;
+mod outputs;
 mod overrides;
 mod page;
 mod points;

@@ -34,7 +34,8 @@ fn points_of_every_format_give_the_same_outputs() {
     folder.with("labelled.csv", labelled.collect::<String>());
     let evaluate = |points: &str, more: &[&str]| {
         let (points, out) = (folder.path(points), folder.path("out.csv"));
-        let output = apportion(&[&["evaluate", text(&study), text(&points), "-o", text(&out)], more].concat());
+        let output =
+            apportion(&[&["evaluate", text(&study), text(&points), "--force", "-o", text(&out)], more].concat());
         (output.status.code(), stderr(&output), std::fs::read_to_string(out).unwrap_or_default())
     };
     let (_, _, expected) = evaluate("p.csv", &[]);

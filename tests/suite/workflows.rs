@@ -140,6 +140,7 @@ fn evaluate_takes_no_points_as_no_points_and_many_as_many() {
         "evaluate",
         text(&study),
         text(&points),
+        "--force",
         "-o",
         text(&out),
         "--set",

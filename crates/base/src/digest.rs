@@ -1,5 +1,9 @@
 //! SHA-256 in hexadecimal, which identifies a file, a study or a design.
 
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
 use hmac_sha256::Hash;
 
 /// A digest of bytes that arrive in pieces.
@@ -27,4 +31,19 @@ pub fn sha256(bytes: &[u8]) -> String {
     let mut digest = Sha256::default();
     digest.update(bytes);
     digest.finish()
+}
+
+/// Returns the digest of a file, read in pieces: data may be larger than the memory.
+///
+/// # Errors
+/// The error of the operating system.
+pub fn sha256_of_file(path: &Path) -> std::io::Result<String> {
+    let (mut file, mut digest) = (File::open(path)?, Sha256::default());
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut piece)? {
+            0 => return Ok(digest.finish()),
+            length => digest.update(&piece[..length]),
+        }
+    }
 }

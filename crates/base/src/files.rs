@@ -1,8 +1,9 @@
-//! Reading files, with a limit on the size of streams.
+//! Reading files, with a limit on the size of streams, and removing temporary ones.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Maximum number of bytes read from anything but a regular file, such as a pipe: 256 MiB. Regular files have no limit.
 pub const MAX_STREAM_BYTES: u64 = 256 << 20;
@@ -44,6 +45,19 @@ pub fn read_opened(file: &mut File) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Returns the path without links; for a missing file, that of its future folder. `None` if this is unknown.
+pub fn real_path(path: &Path) -> Option<PathBuf> {
+    if let Ok(real) = path.canonicalize() {
+        return Some(real);
+    }
+    // A link to a missing file.
+    if path.symlink_metadata().is_ok() {
+        return None;
+    }
+    // Neither has a path that ends in "..".
+    Some(real_path(path.parent()?)?.join(path.file_name()?))
+}
+
 fn read_at_most(reader: &mut impl Read, most: u64, bytes: &mut Vec<u8>) -> Result<()> {
     if reader.take(most + 1).read_to_end(bytes)? as u64 > most {
         let mebibytes = most >> 20;
@@ -52,6 +66,30 @@ fn read_at_most(reader: &mut impl Read, most: u64, bytes: &mut Vec<u8>) -> Resul
         return Err(Error::new(ErrorKind::FileTooLarge, message));
     }
     Ok(())
+}
+
+/// Names of temporary files and folders: the first text, so many letters and digits, the last text. Those of the user
+/// have other names.
+pub const TEMPORARY: (&str, &str, usize) = (".apportion-", ".partial", 16);
+
+/// Age from which an unlocked temporary file belongs to a killed run: a file is locked some microseconds after its
+/// creation.
+const ABANDONED: Duration = Duration::from_secs(1);
+
+/// Removes the temporary files and folders in `folder` that no process has locked.
+pub fn remove_left_overs(folder: &Path) {
+    let (prefix, suffix, length) = TEMPORARY;
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let (name, path) = (entry.file_name(), entry.path());
+        let random = name.to_str().and_then(|name| name.strip_prefix(prefix)?.strip_suffix(suffix));
+        let age = entry.metadata().and_then(|about| about.modified()).ok().and_then(|time| time.elapsed().ok());
+        if random.is_some_and(|random| random.len() == length && random.chars().all(|c| c.is_ascii_alphanumeric()))
+            && age.is_some_and(|age| age >= ABANDONED)
+            && File::open(&path).is_ok_and(|file| file.try_lock().is_ok())
+        {
+            let _ = std::fs::remove_file(&path).or_else(|_| std::fs::remove_dir_all(&path));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use apportion::sweep::SweepError;
 use apportion_files::StudyError;
 use apportion_files::exchange::EvaluateError;
 use apportion_papers::scene::simulation::SceneError;
-use apportion_report::{ArtefactError, WriteError};
+use apportion_report::{ArtefactError, Refusal, WriteError};
 use thiserror::Error;
 
 /// The input was wrong, for this reason.
@@ -55,6 +55,7 @@ pub fn message(error: &anyhow::Error) -> String {
         Some(RunError::Journal(JournalError { problem: JournalProblem::PartlyMerged, .. })) => {
             ": merge the shards of one run only, into a folder without a journal (--out)"
         }
+        _ if error.chain().any(|cause| matches!(cause.downcast_ref(), Some(Refusal::Exists(_)))) => ", or add --force",
         _ => "",
     };
     format!("{error}{remedy}")
@@ -66,18 +67,16 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
 }
 
 fn is_bad_input(error: &anyhow::Error) -> bool {
-    if let Some(error) = error.downcast_ref::<RunError>() {
+    if error.chain().any(|cause| cause.is::<Refusal>()) {
+        true
+    } else if let Some(error) = error.downcast_ref::<RunError>() {
         match error {
             RunError::GaveUp(give_up) => give_up.is_bad_input,
             RunError::Journal(JournalError { problem, .. }) => problem.is_bad_input(),
             _ => false,
         }
-    } else if let Some(error) = error.downcast_ref::<ArtefactError>() {
-        match error {
-            ArtefactError::Input { .. } => true,
-            ArtefactError::Write(error) => is_bad_path(error),
-            _ => false,
-        }
+    } else if let Some(ArtefactError::Write(error)) = error.downcast_ref() {
+        is_bad_path(error)
     } else if let Some(error) = error.downcast_ref::<SweepError>() {
         if let SweepError::Halted(stopped) = error { is_bad_model(stopped) } else { true }
     } else if let Some(EvaluateError::Halted { halt, .. }) = error.downcast_ref() {

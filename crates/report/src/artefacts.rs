@@ -1,9 +1,10 @@
 //! The files of a document and how they are written.
 
 use std::borrow::Cow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use apportion_base::digest::sha256;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -13,8 +14,9 @@ use super::chart::ChartWidth;
 use super::chart::pdf;
 #[cfg(feature = "png")]
 use super::chart::png;
-use super::document::Document;
+use super::document::{DataFile, Document};
 use super::file_names::{CHARTS, ChartFormat};
+use super::outputs::{FileList, Refusal, check_outputs};
 
 /// Why the files of a document were not written.
 #[derive(Debug, Error)]
@@ -30,12 +32,9 @@ pub enum ArtefactError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A file would replace one that must be kept.
-    #[error("{path}: this is the input file; choose another folder", path = path.display())]
-    Input {
-        /// The file.
-        path: PathBuf,
-    },
+    /// A file may not be written.
+    #[error("{0}")]
+    Refused(#[from] Refusal),
     /// The flag to stop was set.
     #[error("interrupted while writing files: existing files are complete, others are missing")]
     Stopped,
@@ -60,10 +59,20 @@ pub enum ArtefactError {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Artefacts {
-    folder: PathBuf,
-    formats: Vec<ChartFormat>,
-    width: ChartWidth,
-    input: Option<PathBuf>,
+    /// The folder.
+    pub folder: PathBuf,
+    /// The formats of the chart files.
+    pub formats: Vec<ChartFormat>,
+    /// The width of the chart files.
+    pub width: ChartWidth,
+    /// The files that the command reads: none of them is ever written.
+    pub inputs: Vec<PathBuf>,
+    /// A file that the command writes before those of the document.
+    pub other: Option<PathBuf>,
+    /// A journal that the command reads and writes.
+    pub journal: Option<PathBuf>,
+    /// Whether existing files are replaced that are not unchanged files of the document.
+    pub replaces: bool,
 }
 
 /// The files that were written.
@@ -84,31 +93,30 @@ impl Artefacts {
             folder: folder.into(),
             formats: vec![ChartFormat::Svg, ChartFormat::Png],
             width: ChartWidth::Wide,
-            input: None,
+            inputs: Vec::new(),
+            other: None,
+            journal: None,
+            replaces: false,
         }
     }
 
-    /// Sets the formats of the chart files; an empty list means no charts.
-    pub fn with_charts(self, formats: &[ChartFormat]) -> Self {
-        Self { formats: formats.to_vec(), ..self }
-    }
-
-    /// Sets the width of the chart files; the charts on the page do not change.
-    pub fn with_width(self, width: ChartWidth) -> Self {
-        Self { width, ..self }
-    }
-
-    /// Sets the input file, which is never overwritten.
-    pub fn next_to_input(self, input: impl Into<PathBuf>) -> Self {
-        Self { input: Some(input.into()), ..self }
-    }
-
-    /// Creates the folder and checks that it can be written to, so that a run fails at its start and not at its end.
+    /// Creates the folder and checks that the files of a document called `name` can be written to it, so that a run
+    /// fails at its start and not at its end.
     ///
     /// # Errors
-    /// [`WriteError`] with the reason.
-    pub fn prepare(&self) -> Result<(), WriteError> {
-        prepare_folder(&self.folder)
+    /// [`ArtefactError`] with the reason.
+    pub fn prepare(self, name: &str) -> Result<Self, ArtefactError> {
+        prepare_folder(&self.folder)?;
+        let files = USUAL_ENDINGS.iter().map(|ending| self.folder.join(format!("{name}{ending}")));
+        let files = self.journal.iter().chain(&self.other).cloned().chain(files).collect();
+        self.check(files, &FileList::read(&self.folder, name))?;
+        Ok(self)
+    }
+
+    /// Refuses files that may not be written.
+    fn check(&self, files: Vec<PathBuf>, list: &FileList) -> Result<(), Refusal> {
+        let replaces = |path: &Path| self.replaces || self.journal.as_deref() == Some(path) || list.contains(path);
+        check_outputs(&self.inputs, &files, &replaces)
     }
 
     /// Writes all files of `document`: the page last, since it links to the others.
@@ -127,15 +135,25 @@ impl Artefacts {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
-        self.prepare()?;
+        prepare_folder(&self.folder)?;
         let figures: Vec<_> = document.figures().into_iter().filter(|figure| !figure.stem.is_empty()).collect();
         let has_charts = !figures.is_empty() && !self.formats.is_empty();
         let charts = self.folder.join(CHARTS);
         if has_charts || document.data_names().iter().any(|name| name.contains('/')) {
             prepare_folder(&charts)?;
         }
+        let of_figures =
+            figures.iter().flat_map(|figure| self.formats.iter().map(|format| chart_file(&figure.stem, *format)));
+        let page_name = format!("{}.html", document.name);
         let data = document.data_files();
-        let data = data.iter().map(|file| self.put(&file.name, stop, file.text.as_bytes()));
+        // A copy of what is there replaces nothing.
+        let existing = |file: &DataFile| std::fs::read(self.folder.join(&file.name)).unwrap_or_default();
+        let of_data = data.iter().filter(|file| existing(file) != file.text.as_bytes()).map(|file| file.name.clone());
+        let names = of_data.chain(of_figures).chain([page_name.clone()]);
+        let files: Vec<PathBuf> = names.map(|name| self.folder.join(name)).collect();
+        let list = FileList::open(&self.folder, &document.name)?;
+        self.check(files, &list)?;
+        let data = data.iter().map(|file| self.put(&file.name, stop, file.text.as_bytes(), &list));
         let data = data.collect::<Result<_, _>>()?;
         figures.par_iter().try_for_each(|figure| {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
@@ -143,30 +161,35 @@ impl Artefacts {
             }
             let svg = figure.chart.svg_at(self.width);
             self.formats.iter().try_for_each(|format| {
-                let file = format!("{CHARTS}/{}.{}", figure.stem, format.name());
+                let file = chart_file(&figure.stem, *format);
                 let picture = picture(&svg, *format)
                     .map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
-                self.put(&file, stop, &picture).map(drop)
+                self.put(&file, stop, &picture, &list).map(drop)
             })
         })?;
         let page = document.html_in_folder(&self.formats);
-        let page = self.put(&format!("{}.html", document.name), stop, page.as_bytes())?;
+        let page = self.put(&page_name, stop, page.as_bytes(), &list)?;
         Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
 
     /// Writes the file at `path` below the folder and returns its location.
-    fn put(&self, path: &str, stop: &AtomicBool, bytes: &[u8]) -> Result<PathBuf, ArtefactError> {
+    fn put(&self, path: &str, stop: &AtomicBool, bytes: &[u8], list: &FileList) -> Result<PathBuf, ArtefactError> {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
         let path = self.folder.join(path);
-        let input = self.input.as_ref().and_then(|input| std::fs::canonicalize(input).ok());
-        if input.is_some() && input == std::fs::canonicalize(&path).ok() {
-            return Err(ArtefactError::Input { path });
-        }
+        list.add(&path, &sha256(bytes)).map_err(|source| WriteError { path: path.clone(), source })?;
         write_atomically(&path, bytes)?;
         Ok(path)
     }
+}
+
+/// Endings of the files that documents have, as far as these are known before a run.
+const USUAL_ENDINGS: [&str; 7] =
+    [".html", ".json", ".csv", "-convergence.csv", "-second-order.csv", "-measures.csv", "-estimators.csv"];
+
+fn chart_file(stem: &str, format: ChartFormat) -> String {
+    format!("{CHARTS}/{stem}.{}", format.name())
 }
 
 /// Converts a chart to a format; the error says why it cannot.

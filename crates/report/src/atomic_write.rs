@@ -1,9 +1,10 @@
 //! Atomic file writes: a reader sees the old file or the new one, never a part of one.
 
-use std::io::Write;
+use std::io::ErrorKind::{IsADirectory, NotADirectory};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
+use apportion_base::files::{TEMPORARY, remove_left_overs};
 use tempfile::NamedTempFile;
 use thiserror::Error;
 
@@ -14,7 +15,7 @@ pub struct WriteError {
     /// The file or folder.
     pub path: PathBuf,
     /// The error of the operating system.
-    pub source: std::io::Error,
+    pub source: io::Error,
 }
 
 /// Writes `bytes` to `path`: into a temporary file in the same folder, synced, then renamed over the target.
@@ -34,7 +35,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// [`WriteError`]; the target is unchanged.
 pub fn stream_atomically<T>(
     path: &Path,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> std::io::Result<T>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<T>,
 ) -> Result<T, WriteError> {
     let attempt = || {
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -62,7 +63,7 @@ pub fn stream_atomically<T>(
 pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
     let attempt = || {
         if let Some(file) = folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir()) {
-            return Err(no_folder(format!("{} is a file, and a folder is needed", file.display())));
+            return Err(io::Error::new(NotADirectory, format!("{} is a file, and a folder is needed", file.display())));
         }
         std::fs::create_dir_all(folder)?;
         remove_left_overs(folder);
@@ -78,12 +79,12 @@ pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
 /// [`WriteError`] with the reason.
 pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
     let attempt = || match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => Err(std::io::ErrorKind::IsADirectory.into()),
+        Ok(metadata) if metadata.is_dir() => Err(IsADirectory.into()),
         Ok(metadata) if !metadata.is_file() => Ok(()),
         _ => {
             let folder = folder_of(path);
             if !folder.exists() {
-                return Err(no_folder(format!("the folder {} does not exist", folder.display())));
+                return Err(io::Error::new(NotADirectory, format!("the folder {} does not exist", folder.display())));
             }
             remove_left_overs(folder);
             temporary_in(folder)?.close()
@@ -92,41 +93,16 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
 }
 
-/// Returns the error for a path that is not a folder although the user named it as one.
-fn no_folder(why: String) -> std::io::Error {
-    std::io::Error::new(std::io::ErrorKind::NotADirectory, why)
-}
-
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Prefix of the names of temporary files.
-const TEMPORARY: &str = ".apportion-";
-
-/// Age from which an unlocked temporary file belongs to a killed run: a file is locked some microseconds after its
-/// creation.
-const ABANDONED: Duration = Duration::from_secs(1);
-
-/// Removes the temporary files in `folder` that no run is writing.
-fn remove_left_overs(folder: &Path) {
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let is_temporary = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
-        let age = entry.metadata().and_then(|about| about.modified()).ok().and_then(|time| time.elapsed().ok());
-        if is_temporary
-            && age.is_some_and(|age| age >= ABANDONED)
-            && std::fs::File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
-        {
-            let _ = std::fs::remove_file(entry.path());
-        }
-    }
-}
-
 /// Creates a temporary file that becomes a result: readable by others as far as the user's mask allows, which the
 /// private files of `tempfile` are not by default.
-fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
+fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY);
+    let (prefix, suffix, random) = TEMPORARY;
+    builder.prefix(prefix).suffix(suffix).rand_bytes(random);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -136,7 +112,7 @@ fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
         // `tempfile` adds the name of the temporary file, which means nothing to the user.
         let text = error.to_string();
         let reason = text.split_once(" at path ").map_or(text.as_str(), |(reason, _)| reason);
-        std::io::Error::new(error.kind(), reason)
+        io::Error::new(error.kind(), reason)
     })?;
     // The lock tells other runs that the file is being written; some file systems have no locks.
     let _ = made.as_file().try_lock();

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_report::document::{DataFile, Document, Table};
-use apportion_report::{ArtefactError, Artefacts, file_stems};
+use apportion_report::{ArtefactError, Artefacts, FileList, Refusal, file_stems};
 
 #[test]
 fn nothing_is_written_once_it_shall_stop() {
@@ -19,8 +19,17 @@ fn nothing_is_written_once_it_shall_stop() {
     let written = artefacts.write(&document).unwrap();
     assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
     assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
-    let overwriting = artefacts.next_to_input(folder.path().join("s.json")).write(&document);
-    assert!(matches!(overwriting, Err(ArtefactError::Input { .. })));
+    let mine = folder.path().join("charts/s.csv");
+    let refused = |artefacts: &Artefacts, expected| match artefacts.write(&document) {
+        Err(ArtefactError::Refused(refusal)) => assert_eq!(refusal, expected),
+        other => panic!("{other:?}"),
+    };
+    // Its own files are written again; not an input, nor a file that was changed.
+    artefacts.write(&document).unwrap();
+    std::fs::write(&mine, "mine").unwrap();
+    refused(&artefacts, Refusal::Exists(mine.clone()));
+    refused(&Artefacts { inputs: vec![mine.clone()], ..artefacts.clone() }, Refusal::Taken(mine));
+    Artefacts { replaces: true, ..artefacts }.write(&document).unwrap();
 }
 
 #[test]
@@ -45,4 +54,20 @@ fn values_keep_their_bits_and_gaps_are_empty() {
     let table = table.file_estimate("S", |row| row.2).file("flag", |_| true);
     let expected = format!("\"a,b\",n,S,S_low,S_high,flag\n'=1+1,7,0.1,-0.5,{},true\n,,,,,true\n", 1e-300);
     assert_eq!(table.csv(), expected);
+}
+
+#[test]
+fn two_writers_of_one_result_take_turns() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = vec![DataFile::new("s.json", "{}".to_owned())];
+    let document = Document { name: "s".to_owned(), files, ..Document::default() };
+    let list = FileList::open(folder.path(), "s").unwrap();
+    std::thread::scope(|scope| {
+        let writer = scope.spawn(|| Artefacts::new(folder.path()).write(&document).unwrap());
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        assert!(!writer.is_finished() && !folder.path().join("s.json").exists());
+        drop(list);
+        writer.join().unwrap();
+    });
+    assert!(folder.path().join("s.json").exists());
 }

@@ -51,3 +51,15 @@ fn links_stay_links_files_keep_their_permissions_and_pipes_stay_pipes() {
     assert_eq!(reader.join().unwrap(), b"through");
     assert!(std::fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
+
+#[test]
+fn temporary_files_of_killed_runs_are_removed_and_no_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = [".apportion-notes.txt", ".apportion-notes.partial", ".apportion-aB3dE5gH7jK9mN1p.partial"];
+    let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
+    for name in names {
+        std::fs::File::create(folder.path().join(name)).unwrap().set_modified(old).unwrap();
+    }
+    prepare_folder(folder.path()).unwrap();
+    assert_eq!(names.map(|name| folder.path().join(name).exists()), [true, true, false]);
+}

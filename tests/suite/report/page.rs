@@ -134,7 +134,8 @@ fn a_page_links_only_to_files_in_its_folder() {
     let alone = document.html();
     assert!(!alone.contains(".svg\"") && !alone.contains(".csv\""));
     let folder = tempfile::tempdir().unwrap();
-    let written = Artefacts::new(folder.path()).with_charts(&[ChartFormat::Svg]).write(&document).unwrap();
+    let written =
+        Artefacts { formats: vec![ChartFormat::Svg], ..Artefacts::new(folder.path()) }.write(&document).unwrap();
     let beside = std::fs::read_to_string(written.page).unwrap();
     assert!(beside.contains("href=\"charts/f1-chart.svg\"") && beside.contains("href=\"data.csv\""), "{beside}");
     assert!(!beside.contains(".png"));

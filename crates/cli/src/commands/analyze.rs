@@ -51,7 +51,9 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let Answers { study, store, .. } = answers(arguments)?;
     let unlikely = study.unlikely_outputs(&store);
     say_notes(&study);
-    let artefacts = arguments.output.prepared(study.name())?.next_to_input(&arguments.data);
+    let inputs = study.files().into_iter().chain([arguments.data.clone(), manifest_path(arguments)?]);
+    let inputs = inputs.chain(arguments.design.clone()).collect();
+    let artefacts = arguments.output.artefacts(study.name(), inputs).prepare(study.name())?;
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {

@@ -43,7 +43,8 @@ pub fn compare(arguments: &Arguments) -> anyhow::Result<()> {
     let file =
         compare_results(&a, &b).map_err(|error| bad_input(format!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&name_a), file_part(&name_b));
-    deliver(&arguments.output.artefacts(&name), &comparison_document(&file, &name))
+    let artefacts = arguments.output.artefacts(&name, vec![arguments.a.clone(), arguments.b.clone()]);
+    deliver(&artefacts, &comparison_document(&file, &name))
 }
 
 /// Two names that are not the same: the studies', the files', their folders', or else A and B.

@@ -7,12 +7,12 @@ use apportion::model::RunContext;
 use apportion::space::Space;
 use apportion_files::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points, open_table};
 use apportion_report::format::count;
-use apportion_report::{prepare_file, significant, stream_atomically};
+use apportion_report::{prepare_outputs, significant, stream_atomically};
 
 use super::stop::{Stoppable, on_signal};
 use super::table::{TableArguments, say_of_table};
-use super::{StudyArguments, same_file, say};
-use crate::failure::{OfFile, bad_input};
+use super::{StudyArguments, say};
+use crate::failure::OfFile;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -32,21 +32,17 @@ pub struct Arguments {
     /// The CSV file for the outputs
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
 }
 
 pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     let options = arguments.table.options(&arguments.names);
     let mut rows = open_table(&arguments.points, &options).in_file(&arguments.points)?;
-    for input in [&arguments.points, &arguments.study.study] {
-        if same_file(input, &arguments.output) {
-            let output = arguments.output.display();
-            return Err(bad_input(format!(
-                "--output {output}: this is the input file, and it would be overwritten: give another name"
-            )));
-        }
-    }
-    prepare_file(&arguments.output)?;
+    let inputs = [study.files(), vec![arguments.points.clone()]].concat();
+    prepare_outputs(&inputs, std::slice::from_ref(&arguments.output), arguments.force)?;
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {

@@ -68,6 +68,9 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let Table { inputs, outputs, dropped, skipped } = read_table(rows.as_mut(), &selection).in_file(path)?;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(path, &names, rows.is_unended());
+    let name = stem(path);
+    let files = study.iter().flat_map(Study::files).chain([path.to_owned()]).collect();
+    let artefacts = arguments.output.artefacts(&name, files);
     let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
     let surrogates = if arguments.surrogate {
         let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
@@ -75,8 +78,6 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     } else {
         None
     };
-    let name = stem(path);
-    let artefacts = arguments.output.artefacts(&name).next_to_input(path);
     let facts = GivenFacts {
         file: path.display().to_string(),
         sha256,

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use apportion::study::Study;
 use apportion_files::{ModelKind, edited};
 use apportion_report::document::{DataFile, Document, Link, Part, Section, symbols};
-use apportion_report::{Subject, output_document, prepare_file, prepare_folder, write_atomically};
+use apportion_report::{Subject, output_document, prepare_folder, prepare_outputs, write_atomically};
 use askama::Template;
 use serde_json::{Value, json};
 use toml_edit::{DocumentMut, Item};
@@ -25,18 +25,22 @@ pub struct Arguments {
     /// The page [default: results/NAME/NAME-live.html]
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     threads: Threads,
 }
 
 pub fn live(arguments: &Arguments) -> anyhow::Result<()> {
-    let live = LiveStudy::new(&arguments.study.load_with(&arguments.design.overrides())?)?;
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
+    let live = LiveStudy::new(&study)?;
     let name = live.study.name();
     let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(format!("{name}-live.html")));
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         prepare_folder(folder)?;
     }
-    prepare_file(&path)?;
+    prepare_outputs(&study.files(), std::slice::from_ref(&path), arguments.force)?;
     let page = live.page(arguments.threads.number(), on_signal())?;
     write_atomically(&path, page.as_bytes())?;
     say(&format!("wrote {}", path.display()));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::run::RunError;
+use apportion_report::Artefacts;
 
 use super::output::OutputArguments;
 use super::run::{deliver, journal_path};
@@ -29,8 +30,10 @@ pub fn merge(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.output.folder(study.name());
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
-    let artefacts = arguments.output.prepared(study.name())?;
     let path = journal_path(&folder, study.name(), None);
+    let inputs = [study.files(), journals.clone()].concat();
+    let artefacts = Artefacts { journal: Some(path.clone()), ..arguments.output.artefacts(study.name(), inputs) };
+    let artefacts = artefacts.prepare(study.name())?;
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
         RunError::Incomplete { .. } => anyhow!(

@@ -27,7 +27,7 @@ mod trade;
 
 use std::io::{Error, ErrorKind, Write};
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use apportion::study::Study;
@@ -235,11 +235,6 @@ fn exit_code(outcome: anyhow::Result<()>) -> ExitCode {
         say(&format!("error: {}", failure::message(&error)));
     }
     ExitCode::from(failure::exit_code(&error))
-}
-
-/// Whether two paths lead to one file.
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// A path or an argument as it is typed in a shell.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_program, template};
-use apportion_report::{prepare_file, write_atomically};
+use apportion_report::{prepare_outputs, write_atomically};
 
 use super::models::find_model;
 use super::{counted, quoted, say};
@@ -54,10 +54,7 @@ pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
         bad_input(format!("{option}: {problem} (model {}){help}", model.name))
     })?;
     let study = apportion_files::parse_study(&text, path, &[])?;
-    if !arguments.force && path.exists() {
-        return Err(bad_input(format!("{} exists already: give another name, or add --force", path.display())));
-    }
-    prepare_file(path)?;
+    prepare_outputs(&[], std::slice::from_ref(path), arguments.force)?;
     write_atomically(path, text.as_bytes())?;
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
     say(&format!("wrote {}: {}, {runs} runs", path.display(), counted(factors as u64, "factor")));

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use apportion::Study;
 use apportion_report::chart::{ChartWidth, PaperWidth};
 use apportion_report::document::Document;
 use apportion_report::{Artefacts, ChartFormat};
@@ -18,6 +19,9 @@ pub struct ChartArguments {
     /// text of a paper; letters of 7 to 9 pt, PNG with 600 dpi, PDF in this size [default: a page column, with title and caption]
     #[arg(long, value_name = "WIDTH")]
     chart_width: Option<PaperWidth>,
+    /// Overwrite files that are not unchanged results of an earlier command of the same kind
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Where the files of a command go, and its charts.
@@ -36,16 +40,15 @@ impl OutputArguments {
         self.out.clone().unwrap_or_else(|| default_folder(name))
     }
 
-    /// The files of a document about what is called `name`.
-    pub fn artefacts(&self, name: &str) -> Artefacts {
-        self.charts.artefacts(self.folder(name))
+    /// The files of a document about what is called `name`, made from `inputs`.
+    pub fn artefacts(&self, name: &str, inputs: Vec<PathBuf>) -> Artefacts {
+        Artefacts { inputs, ..self.charts.artefacts(self.folder(name)) }
     }
 
-    /// The same, in a folder that exists and can be written to, so that a run fails at its start and not at its end.
-    pub fn prepared(&self, name: &str) -> anyhow::Result<Artefacts> {
-        let artefacts = self.artefacts(name);
-        artefacts.prepare()?;
-        Ok(artefacts)
+    /// The files of the document `NAME` + `ending` about `study`: they can be written, so that a run fails at its start
+    /// and not at its end.
+    pub fn prepared(&self, study: &Study, ending: &str) -> anyhow::Result<Artefacts> {
+        Ok(self.artefacts(study.name(), study.files()).prepare(&format!("{}{ending}", study.name()))?)
     }
 }
 
@@ -62,7 +65,7 @@ impl ChartArguments {
     pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
         let width = self.chart_width.map_or(ChartWidth::Wide, ChartWidth::Paper);
         let formats: Vec<ChartFormat> = self.charts.iter().flatten().copied().collect();
-        Artefacts::new(folder).with_charts(&formats).with_width(width)
+        Artefacts { formats, width, replaces: self.force, ..Artefacts::new(folder) }
     }
 }
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use apportion::result::{ReadError, parse_result};
 use apportion_base::files::read_whole;
-use apportion_report::run_document;
+use apportion_report::{Artefacts, Refusal, run_document};
 
 use super::output::{ChartArguments, deliver};
-use super::{same_file, say};
+use super::say;
 use crate::failure::bad_input;
 
 #[derive(clap::Args)]
@@ -32,11 +32,8 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     // The page links to the result, so an exact copy of it must be next to the page.
     let json = folder.join(&name);
     // Charts of one result must not be mixed with the JSON of another.
-    if !same_file(&json, path) && read_whole(&json).is_ok_and(|existing| existing != bytes) {
-        return Err(bad_input(format!(
-            "{} is another result, and its page and charts would be overwritten: give another folder with --out",
-            json.display()
-        )));
+    if !arguments.charts.force && read_whole(&json).is_ok_and(|existing| existing != bytes) {
+        return Err(Refusal::Exists(json).into());
     }
     let text = String::from_utf8(bytes).map_err(|_| bad_input(format!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
@@ -44,5 +41,5 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
         let version = &result.provenance.apportion_version;
         say(&format!("note: the numbers are from apportion {version}; only the page and charts are from this version"));
     }
-    deliver(&arguments.charts.artefacts(folder), &document)
+    deliver(&Artefacts { inputs: vec![path.clone()], ..arguments.charts.artefacts(folder) }, &document)
 }

@@ -44,8 +44,7 @@ enum Topic {
 }
 
 pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
-    let artefacts = arguments.charts.artefacts(&arguments.out);
-    artefacts.prepare()?;
+    let artefacts = arguments.charts.artefacts(&arguments.out).prepare("index")?;
     let threads = arguments.threads.number();
     let (effort, quick) = if arguments.quick { (Effort::Quick, &QUICK[..]) } else { (Effort::Full, &[][..]) };
     let overrides: Vec<String> =

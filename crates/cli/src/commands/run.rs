@@ -8,8 +8,9 @@ use apportion::Resume;
 use apportion::result::{OutputResult, StudyResult};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
+use apportion_base::digest::sha256_of_file;
 use apportion_files::exchange::{Format, write_rows};
-use apportion_report::{Artefacts, prepare_file, run_document, stream_atomically};
+use apportion_report::{Artefacts, FileList, prepare_file, run_document, stream_atomically};
 
 use super::output::{self, OutputArguments};
 use super::progress::Meter;
@@ -70,7 +71,10 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     }
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.output.folder(study.name());
-    let artefacts = arguments.output.prepared(study.name())?;
+    let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
+    let artefacts = arguments.output.artefacts(study.name(), study.files());
+    let artefacts = Artefacts { journal: journal.clone(), other: arguments.save_outputs.clone(), ..artefacts };
+    let artefacts = artefacts.prepare(study.name())?;
     if arguments.shard.is_some() && study.target().grows() {
         return Err(bad_input(format!("--shard: {}", RunError::NoSize)));
     }
@@ -84,7 +88,6 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
         prepare_file(path)?;
         saved = Some((path, format, Store::new(study.model().as_ref())));
     }
-    let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
     let runner = match mpi_ranks {
@@ -120,8 +123,9 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
         None => meter.finish(runs, seconds),
     }
-    if let Some((path, format, store)) = &saved {
-        save(&study, &result, store, path, *format)?;
+    if let Some(saved) = &saved {
+        save(&study, &result, saved)?;
+        FileList::open(&folder, study.name())?.add(saved.0, &sha256_of_file(saved.0)?)?;
     }
     deliver(&study, &artefacts, &result)
 }
@@ -135,11 +139,11 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> anyhow::Result<()> {
+fn save(study: &Study, result: &StudyResult, (path, format, store): &(&PathBuf, Format, Store)) -> anyhow::Result<()> {
     let settings = study.design().settings();
     let design = study.design().with_points(result.provenance.base_samples / settings.replicates)?;
     let rows = design.rows();
-    stream_atomically(path, |out| write_rows(study, &design, Some(store), rows, format, &mut Stoppable::new(out)))?;
+    stream_atomically(path, |out| write_rows(study, &design, Some(store), rows, *format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {rows} runs to {}", path.display()));
     Ok(())
 }

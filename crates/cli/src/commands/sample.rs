@@ -3,15 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use apportion_base::digest::sha256_of_file;
 use apportion_base::files::read_text;
-use apportion_files::exchange::{
-    Format, Manifest, ReadOptions, open_table, random_design, sample as write_sample, write_rows,
-};
-use apportion_report::{prepare_file, stream_atomically, write_atomically};
+use apportion_files::exchange::{Format, Manifest, random_design, sample as write_sample, write_rows};
+use apportion_report::{prepare_outputs, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
 use super::{DesignChanges, StudyArguments, counted, say};
-use crate::failure::{OfFile, bad_input};
+use crate::failure::OfFile;
 
 /// Most random points.
 const MAX_RANDOM: u64 = 2 * apportion::design::Design::MAX_POINTS;
@@ -42,12 +41,8 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let path = arguments.output.clone().unwrap_or(default);
     let format = Format::from_path(&path).in_file(&path)?;
     let manifest_path = Manifest::path_for(&path);
-    if !arguments.force && path.is_file() && !is_design_of(&path, study.name()) {
-        let what = "exists already, and is not a design that `sample` wrote of this study";
-        return Err(bad_input(format!("{} {what}: give another name, or add --force", path.display())));
-    }
-    prepare_file(&path)?;
-    prepare_file(&manifest_path)?;
+    let is_own = arguments.force || is_design_of(&path, study.name());
+    prepare_outputs(&study.files(), &[path.clone(), manifest_path.clone()], is_own)?;
     if arguments.random.is_none() && study.target().grows() {
         say("note: a run of this study adds points until its target is met: these are its first points");
     }
@@ -65,7 +60,8 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
         return Ok(());
     }
     let file = &arguments.study.study;
-    let manifest = stream_atomically(&path, |out| write_sample(&study, file, format, &mut Stoppable::new(out)))?;
+    let mut manifest = stream_atomically(&path, |out| write_sample(&study, file, format, &mut Stoppable::new(out)))?;
+    manifest.file_sha256 = sha256_of_file(&path)?;
     write_atomically(&manifest_path, manifest.json().as_bytes())?;
     let rows = study.design().rows();
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
@@ -73,10 +69,8 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest next to it says so, and no
-/// outputs have been put in.
+/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest next to it has its digest.
 fn is_design_of(path: &Path, name: &str) -> bool {
     let manifest = read_text(&Manifest::path_for(path)).ok().and_then(|text| Manifest::parse(&text).ok());
-    let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
-    manifest.zip(width.ok()).is_some_and(|(manifest, width)| manifest.describes(name, width))
+    manifest.zip(sha256_of_file(path).ok()).is_some_and(|(manifest, sha256)| manifest.describes(name, &sha256))
 }

@@ -62,7 +62,7 @@ pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
         say(&format!("note: {requested} trajectories do not make equal parts for the intervals: {used} are used"));
     }
     let model = study.model();
-    let artefacts = arguments.output.prepared(study.name())?;
+    let artefacts = arguments.output.prepared(&study, "-screen")?;
     let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
     let meter = Meter::new(study.name(), runs);
     let start = Instant::now();

@@ -27,7 +27,7 @@ pub fn sweep(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     let factors = find(study.space(), &arguments.factors)?;
     let model = study.model();
-    let artefacts = arguments.output.prepared(study.name())?;
+    let artefacts = arguments.output.prepared(&study, "-sweep")?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = apportion::sweep::sweep(study.space(), model.as_ref(), &factors, arguments.points, &context)?;
     deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), sweeps)))

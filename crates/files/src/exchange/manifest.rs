@@ -23,6 +23,9 @@ pub struct Manifest {
     design: ManifestDesign,
     /// The columns of the design file.
     factors: Vec<ManifestFactor>,
+    /// SHA-256 of the design file as it was written.
+    #[serde(default)]
+    pub file_sha256: String,
 }
 
 /// The study of a design file.
@@ -133,12 +136,13 @@ impl Manifest {
                 sha256,
             },
             factors: factors.collect(),
+            file_sha256: String::new(),
         }
     }
 
-    /// Returns whether it describes the design of the study of that name, with that number of factors.
-    pub fn describes(&self, study: &str, factors: usize) -> bool {
-        self.study.name == study && self.factors.len() == factors
+    /// Returns whether it describes the design of the study of that name, in a file with that SHA-256.
+    pub fn describes(&self, study: &str, sha256: &str) -> bool {
+        self.study.name == study && self.file_sha256 == sha256
     }
 
     /// Returns the path of the manifest of the design file `design`: next to it.

@@ -4,10 +4,12 @@
 //! (`files_outside = true`). Tables of measured values are the exception: they hold only numbers of a column, and are
 //! often next to several studies.
 
+use std::cell::RefCell;
 use std::fmt::Display;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
+use apportion_base::files::real_path;
 use apportion_base::names::{Named, did_you_mean, nearest};
 use toml::Value;
 
@@ -21,9 +23,15 @@ pub(super) type Fault = Box<Diagnostic>;
 pub(super) struct Context {
     pub path: PathBuf,
     pub text: String,
+    /// The tables of measured values read so far.
+    pub measured: RefCell<Vec<PathBuf>>,
 }
 
 impl Context {
+    pub fn new(path: &Path, text: String) -> Self {
+        Self { path: path.to_owned(), text, measured: RefCell::default() }
+    }
+
     pub fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
         Box::new(Diagnostic::new(&self.path, &self.text, span, problem))
     }
@@ -122,15 +130,11 @@ pub(super) fn folder(context: &Context) -> PathBuf {
 pub(super) fn resolve(context: &Context, typed: &At<String>, scope: PathScope) -> Result<PathBuf, Fault> {
     let folder = folder(context);
     let path = folder.join(typed.get_ref());
-    if scope == PathScope::Anywhere || is_inside(&path, &folder).unwrap_or(false) {
+    let is_inside = || Some(real_path(&path)?.starts_with(folder.canonicalize().ok()?));
+    if scope == PathScope::Anywhere || is_inside().unwrap_or(false) {
         return Ok(path);
     }
     Err(outside(context, typed.span(), &path, "outside the study's folder"))
-}
-
-/// Returns whether a path is inside a folder; `None` if this is unknown.
-fn is_inside(path: &Path, folder: &Path) -> Option<bool> {
-    Some(real_path(path)?.starts_with(folder.canonicalize().ok()?))
 }
 
 /// Refuses the name of a file that a run writes if it is outside the directory of the run.
@@ -153,17 +157,4 @@ pub(super) fn refuse_outside_of_run(
 fn outside(context: &Context, span: Range<usize>, path: &Path, place: &str) -> Fault {
     let help = "name one inside, or add files_outside = true to [command]";
     context.fault(span, Problem::with_help(format!("{}: the path leads {place}", path.display()), help))
-}
-
-/// Returns the path without links; for a missing file, that of its future folder. `None` if this is unknown.
-fn real_path(path: &Path) -> Option<PathBuf> {
-    if let Ok(real) = path.canonicalize() {
-        return Some(real);
-    }
-    // A link to a missing file.
-    if path.symlink_metadata().is_ok() {
-        return None;
-    }
-    // Neither has a path that ends in "..".
-    Some(real_path(path.parent()?)?.join(path.file_name()?))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use apportion::study::{LowFidelity, Study, Subject};
+use apportion::study::{LowFidelity, Study, StudySource, Subject};
 use apportion_base::names::refused_name;
 use toml_edit::{DocumentMut, Item, TableLike, TomlError, Value};
 
@@ -13,7 +13,7 @@ use super::models::TABLES;
 use super::reading::Reading;
 
 /// A function that makes the study of a text.
-type Resolve = fn(Context) -> Result<(Study, Vec<String>), Fault>;
+type Resolve = fn(Context) -> Result<(Study, StudySource), Fault>;
 
 /// Returns the low-fidelity models of `file` for its model `subject`. `resolve` makes a study of each one in the file.
 pub(super) fn low_fidelity_models(
@@ -62,7 +62,7 @@ fn described(context: &Context, table: &toml::Table, resolve: Resolve) -> Result
         return Err(wrong("name of a cheaper model", &expected, format!("\"{name}\"")));
     }
     let study = match with_keys(&context.text, table) {
-        Ok(text) => resolve(Context { path: context.path.clone(), text }).map_err(|fault| fault.problem.to_string()),
+        Ok(text) => resolve(Context::new(&context.path, text)).map_err(|fault| fault.problem.to_string()),
         Err(_) => Err("the study cannot be rewritten".to_owned()),
     };
     let (study, _) = study.map_err(|reason| Problem::new(format!("cheaper model `{name}`: {reason}")))?;

@@ -22,6 +22,7 @@ pub(super) fn read_measured(
     let path = resolve(context, file, PathScope::Anywhere)?;
     let bytes = read_whole(&path)
         .map_err(|error| unusable(context, file, &path, &format!("cannot read the measured values: {error}")))?;
+    context.measured.borrow_mut().push(path.clone());
     let sha256 = sha256(&bytes);
     let options = ReadOptions { no_header: begins_with_number(&bytes), ..ReadOptions::default() };
     let mut reader = table_of_bytes(bytes, &options).map_err(|error| unusable(context, file, &path, &error))?;

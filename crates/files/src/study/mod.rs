@@ -74,8 +74,8 @@ pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError
 pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
     let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overrides::apply(text, overrides)? };
     let is_editable = effective.is_some();
-    let context = Context { path: path.to_owned(), text: effective.unwrap_or_else(|| text.to_owned()) };
-    let (study, notes) = resolve::study(context).map_err(|mut diagnostic| {
+    let context = Context::new(path, effective.unwrap_or_else(|| text.to_owned()));
+    let (study, source) = resolve::study(context).map_err(|mut diagnostic| {
         diagnostic.overrides = overrides.to_vec();
         diagnostic
     })?;
@@ -84,10 +84,11 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
         return Err(not_editable(overrides));
     }
     Ok(study.with_source(StudySource {
+        path: path.to_owned(),
         text: text.to_owned(),
         sha256: sha256(text.as_bytes()),
         overrides: overrides.to_vec(),
-        notes,
+        ..source
     }))
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use apportion::StudyBuilder;
 use apportion::design::DesignError;
-use apportion::study::{BuildError, Study};
+use apportion::study::{BuildError, Study, StudySource};
 use apportion_base::names::file_part;
 use toml::de::DeTable;
 
@@ -18,8 +18,8 @@ use super::reading::Reading;
 use super::{analysis, dependence, factors, fidelity};
 use crate::ModelKind;
 
-/// Returns the study of the text of `context`, and notes on keys without effect.
-pub(super) fn study(context: Context) -> Result<(Study, Vec<String>), Fault> {
+/// Returns the study of the text of `context`, and notes on keys without effect and the tables that it names.
+pub(super) fn study(context: Context) -> Result<(Study, StudySource), Fault> {
     let file = study_file(&context)?;
     let kind = model_kind(&context, file.model.as_ref())?;
     let reading = Reading { context, file, kind };
@@ -40,7 +40,7 @@ pub(super) fn study(context: Context) -> Result<(Study, Vec<String>), Fault> {
     builder.dependences = dependence::dependences(&reading, &space)?;
     builder.low_fidelities = fidelity::low_fidelity_models(&reading, &*subject, study)?;
     match builder.checked() {
-        Ok(study) => Ok((study, notes)),
+        Ok(study) => Ok((study, StudySource { notes, measured: context.measured.take(), ..StudySource::default() })),
         Err(error) => Err(context.fault(place(&reading, &error), Problem::Build(error))),
     }
 }
