@@ -5,6 +5,7 @@
 mod common;
 
 use std::io::{BufRead, BufReader};
+use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
@@ -114,6 +115,18 @@ fn wrong_input_ends_all_ranks_with_its_exit_code() {
     let once = succeed(&["models"]);
     // The terminal that mpirun gives to its ranks ends lines with two characters.
     assert_eq!(String::from_utf8(output.stdout).unwrap().replace('\r', ""), once);
+}
+
+#[test]
+fn a_path_that_is_not_text_is_refused() {
+    let folder = Folder::new();
+    let path = folder.path("").join(std::ffi::OsStr::from_bytes(b"study-\xff.toml"));
+    std::fs::copy(study_path("ishigami"), &path).unwrap();
+    let Some(mut command) = ranks(2, &["run", "--base-samples", "64", "--out", text(&folder.path("out"))]) else {
+        return;
+    };
+    let output = command.arg(&path).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 }
 
 /// Ranks of a job: the children of its `mpirun`.

@@ -83,6 +83,12 @@ pub enum RunError {
         /// Which runs they are, in words.
         places: String,
     },
+    /// Files of the model changed during the run, or are other ones where a worker is.
+    #[error("not the files that the run began with: {files}; undo the change to resume, or start again")]
+    OtherFiles {
+        /// Their names.
+        files: String,
+    },
     /// Outputs could not be saved.
     #[error("cannot keep the outputs of finished runs: {source}")]
     NotKept {

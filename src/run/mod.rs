@@ -15,6 +15,7 @@ mod failures;
 mod fold;
 mod growing;
 pub mod journal;
+mod model_files;
 mod pilot;
 mod remote;
 mod repeats;
@@ -35,6 +36,7 @@ pub use failures::RowPosition;
 pub(crate) use failures::Tally;
 pub(crate) use growing::GrowingRun;
 use journal::Journal;
+pub(crate) use model_files::{ModelFiles, differing};
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
 pub(crate) use remote::{DesignKey, Remote, Reply, Request};
@@ -90,7 +92,7 @@ pub(crate) const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
 pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {
-    journal.get().map_or(Ok(()), |journal| journal.append(block)).map_err(|source| RunError::NotKept { source })
+    journal.get().map_or(Ok(()), |journal| journal.append(block))
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

@@ -1,16 +1,15 @@
 //! The journal of a study's run: located, checked against the study, and resumed or replaced.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::model_files::{differing, digests};
 use super::{Resume, Runner};
 use crate::model::Messages;
 use crate::run::journal::{Contents, Journal, JournalProblem, differences, read_journal_file, with_ending};
-use crate::run::{Progress, RunError, Shard, Store};
+use crate::run::{MAX_STORED_BYTES, ModelFiles, Progress, RunError, Shard, Store, differing};
 use crate::study::Study;
 
 /// Runs that are expected to take longer than this are worth a journal.
@@ -24,6 +23,7 @@ pub(super) struct RunJournal {
     /// Outputs that were recorded when the journal was opened.
     pub store: Store,
     pub open: OnceLock<Journal>,
+    files: Arc<ModelFiles>,
     /// Path and header of the journal of a run that is not yet expected to be long.
     waiting: Mutex<Option<(PathBuf, Value)>>,
 }
@@ -31,22 +31,21 @@ pub(super) struct RunJournal {
 impl RunJournal {
     /// Returns a run without a journal.
     pub fn none(study: &Study) -> Self {
-        Self { store: Store::new(study.model().as_ref()), open: OnceLock::new(), waiting: Mutex::new(None) }
+        let (store, files) = (Store::new(study.model().as_ref()), ModelFiles::new(study.subject.files()).into());
+        Self { store, open: OnceLock::new(), files, waiting: Mutex::new(None) }
     }
 
-    /// Creates a journal at `path`, of a study whose model has `files` (path: digest); if it `waits`, once the run is
-    /// expected to be long.
-    fn new(study: &Study, path: &Path, shard: Option<Shard>, files: &Value, waits: bool) -> Result<Self, RunError> {
-        let header = header(study, shard, files);
+    /// Adds a new journal at `path` with a `header`; if it `waits`, once the run is expected to be long.
+    fn with_new(self, path: &Path, header: Value, waits: bool) -> Result<Self, RunError> {
         if waits {
-            return Ok(Self { waiting: Mutex::new(Some((path.to_owned(), header))), ..Self::none(study) });
+            return Ok(Self { waiting: Mutex::new(Some((path.to_owned(), header))), ..self });
         }
-        Ok(Self { open: Journal::create(path, &header)?.into(), ..Self::none(study) })
+        Ok(Self { open: Journal::create(path, &header)?.with_files(&self.files).into(), ..self })
     }
 
-    /// Wraps a resumed journal with these contents.
-    fn resumed(study: &Study, journal: Journal, contents: &Contents) -> Self {
-        Self { store: recorded(study, contents), open: journal.into(), ..Self::none(study) }
+    /// Adds a resumed journal with these contents.
+    fn with_resumed(self, study: &Study, journal: Journal, contents: &Contents) -> Self {
+        Self { store: recorded(study, contents), open: journal.with_files(&self.files).into(), ..self }
     }
 
     /// Creates the journal of a run that is expected to be long; an error only causes a warning.
@@ -57,23 +56,29 @@ impl RunJournal {
             return;
         }
         let Some((path, header)) = self.waiting.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
+        let bytes = total.saturating_mul(outputs as u64 * 8);
+        if bytes > MAX_STORED_BYTES {
+            let error = RunError::TooManyOutputs { runs: total, bytes };
+            return messages.send(&format!("warning: no journal is kept: to resume, {error}"));
+        }
         match Journal::create(&path, &header) {
             Ok(journal) => {
-                let megabytes = (total * outputs as u64 * 8).div_ceil(1_000_000);
+                let megabytes = bytes.div_ceil(1_000_000);
                 messages.send(&format!(
                     "note: the run is expected to take longer than {} s: completed runs are now saved in {}, about \
                      {megabytes} MB in the end",
                     LONG_RUN.as_secs(),
                     path.display()
                 ));
-                let _ = self.open.set(journal);
+                let _ = self.open.set(journal.with_files(&self.files));
             }
             Err(error) => messages.send(&format!("warning: no journal is kept: {error}")),
         }
     }
 
-    /// Forces recorded outputs to the disk.
-    pub fn sync(&self) -> Result<(), RunError> {
+    /// Forces recorded outputs to the disk, and checks that all outputs are of one version of the model.
+    pub fn finish(&self) -> Result<(), RunError> {
+        self.files.check_contents()?;
         self.open.get().map_or(Ok(()), Journal::sync).map_err(|source| RunError::NotKept { source })
     }
 }
@@ -86,15 +91,16 @@ pub(super) fn open_for_parts(
     files: &Value,
     messages: &Messages,
 ) -> Result<RunJournal, RunError> {
+    let (none, header) = (RunJournal::none(study), header(study, None, files));
     let Some((journal, contents)) = resume_file(path, Resume::IfThere, messages)? else {
-        return RunJournal::new(study, path, None, files, false);
+        return none.with_new(path, header, false);
     };
     match another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)) {
-        None => Ok(RunJournal::resumed(study, journal, &contents)),
+        None => Ok(none.with_resumed(study, journal, &contents)),
         Some(kind) => {
             drop(journal);
             move_aside(path, &kind.to_string(), messages)?;
-            RunJournal::new(study, path, None, files, false)
+            none.with_new(path, header, false)
         }
     }
 }
@@ -107,14 +113,15 @@ pub(super) fn open(
     messages: &Messages,
 ) -> Result<RunJournal, RunError> {
     let Runner { study, resume, only_if_long, .. } = *runner;
-    let files = digests(study);
+    let none = RunJournal::none(study);
+    let header = header(study, shard, &none.files.digests);
     // Even a few runs of a slow model may have cost much.
     let waits = only_if_long && shard.is_none() && !study.model().is_slow();
     let Some((journal, contents)) = resume_file(path, resume, messages)? else {
-        return RunJournal::new(study, path, shard, &files, waits);
+        return none.with_new(path, header, waits);
     };
     let other = another_study(study, &contents.header);
-    let changed = another_model(&contents.header, &files);
+    let changed = another_model(&contents.header, &none.files.digests);
     let reason = match (other, changed) {
         _ if resume == Resume::Restart => Some("restarted".to_owned()),
         (Some(other), _) if resume.is_required() => return Err(other.at(path).into()),
@@ -128,13 +135,13 @@ pub(super) fn open(
         } else {
             move_aside(path, &reason, messages)?;
         }
-        return RunJournal::new(study, path, shard, &files, waits);
+        return none.with_new(path, header, waits);
     }
     if contents.cut_off > 0 {
         let what = "after its last complete record; their runs are evaluated again";
         messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
     }
-    let resumed = RunJournal::resumed(study, journal, &contents);
+    let resumed = none.with_resumed(study, journal, &contents);
     if resume == Resume::RetryFailed {
         match resumed.store.forget_failures() {
             0 => messages.send(&format!("note: no run in {} has failed", path.display())),
@@ -218,7 +225,7 @@ pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
 /// Counts the runs of `study` recorded in the journal at `path`.
 pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
     let contents = read(study, path)?;
-    if let Some(problem) = another_model(&contents.header, &digests(study)) {
+    if let Some(problem) = another_model(&contents.header, &ModelFiles::new(study.subject.files()).digests) {
         return Err(problem.at(path).into());
     }
     Ok(rows_on_record(study, &recorded(study, &contents)))
@@ -241,3 +248,6 @@ pub(super) fn rows_on_record(study: &Study, store: &Store) -> u64 {
     let rows = study.design.points_per_replicate() * study.design.rows_per_point();
     (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
 }
+
+#[cfg(test)]
+mod tests;

@@ -145,7 +145,7 @@ impl<'a> TimedRun<'a> {
         let start = Instant::now();
         self.run.grow_to(points, &|_| ())?;
         self.seconds += start.elapsed().as_secs_f64();
-        self.part.journal.sync()
+        self.part.journal.finish()
     }
 }
 

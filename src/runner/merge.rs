@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::journal::{self, RunJournal, recorded};
-use super::model_files::differing;
 use crate::model::Messages;
 use crate::run::journal::JournalProblem;
-use crate::run::{RunError, Shard, Store, record};
+use crate::run::{RunError, Shard, Store, differing, record};
 use crate::study::Study;
 
 /// Returns the journal at `path` extended by the contents of `journals`, with all rows of the design.
@@ -40,7 +39,7 @@ pub(super) fn merged(
             }
         }
     }
-    merged.sync()?;
+    merged.finish()?;
     let (total, present) = (study.design.rows(), journal::rows_on_record(study, store));
     if present == total {
         return Ok(merged);

@@ -5,7 +5,6 @@ mod growth;
 mod journal;
 mod low_fidelity;
 mod merge;
-mod model_files;
 mod once;
 mod worker;
 
@@ -208,7 +207,7 @@ impl<'a> Runner<'a> {
         let filled = run.run_missing(&rows, &journal.store, &*self.on_progress);
         context.messages().finish();
         filled?;
-        journal.sync()?;
+        journal.finish()?;
         Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
     }
 

@@ -74,7 +74,7 @@ impl<'a> Runner<'a> {
         let mut growth = Growth { study, run, low_fidelity, on_progress: &on_progress };
         let grown = growth.run_all();
         // An error of the run takes precedence over one of its journal.
-        let (stopped, surrogates) = grown.and_then(|grown| journal.sync().map(|()| grown))?.unzip();
+        let (stopped, surrogates) = grown.and_then(|grown| journal.finish().map(|()| grown))?.unzip();
         let Growth { run, low_fidelity, .. } = growth;
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
         let low_fidelity: Vec<LowFidelityTotals<'_>> = low_fidelity.iter().map(LowFidelityRun::totals).collect();

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde_json::Value;
+
 use crate::design::Design;
 use crate::model::{Model, RowFailure, RunContext};
-use crate::run::{DesignKey, Reply, Request, RowValues, RowWorker, answered};
+use crate::run::{DesignKey, Reply, Request, RowValues, RowWorker, RunError, answered, differing};
 use crate::study::Study;
 
 /// The source of requests and the receiver of replies.
@@ -26,14 +28,21 @@ pub struct WorkerStudy {
 }
 
 impl WorkerStudy {
-    /// Creates the models of `study`, which must be the same as that of the run in the other process.
-    pub fn new(mut study: Study) -> Self {
+    /// Creates the models of `study`, which must be the same as that of the run in the other process, where its files
+    /// have these [digests](Study::data_digests).
+    ///
+    /// # Errors
+    /// [`RunError::OtherFiles`] if the files here are other ones.
+    pub fn new(mut study: Study, digests: &Value) -> Result<Self, RunError> {
+        if let Some(files) = differing(digests, &study.data_digests()) {
+            return Err(RunError::OtherFiles { files });
+        }
         if study.low_fidelities.is_empty() {
             study.low_fidelities = study.subject.cheaper();
         }
         let low_fidelity = study.low_fidelities.iter().map(|low| low.subject.model(&study.space));
         let models = std::iter::once(study.model()).chain(low_fidelity).collect();
-        Self { study, models }
+        Ok(Self { study, models })
     }
 
     /// Replies to the requests to one worker until there are no more. Its programs live as long.

@@ -19,13 +19,14 @@ pub use build_error::BuildError;
 pub use builder::StudyBuilder;
 pub use options::{AnalysisOptions, Target};
 use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
+use serde_json::Value;
 use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
-use crate::run::BLOCK;
+use crate::run::{BLOCK, ModelFiles};
 use crate::space::Space;
 use crate::surrogate::fewest_points;
 use crate::uncertainty::RULE_OF_THREE;
@@ -198,6 +199,11 @@ impl Study {
         let models = std::iter::once(&self.subject).chain(self.low_fidelities.iter().map(|low| &low.subject));
         let own = std::iter::once(&self.source.path).chain(&self.source.measured).cloned();
         own.chain(models.flat_map(|subject| subject.files())).collect()
+    }
+
+    /// Returns the SHA-256 of all these files but its own, by path.
+    pub fn data_digests(&self) -> Value {
+        ModelFiles::new(self.files().split_off(1)).digests
     }
 
     /// Returns the text of the file.

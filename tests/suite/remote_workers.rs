@@ -60,7 +60,7 @@ impl Requests for Queue {
 
 /// The result of `run` with this number of remote workers, each of which answers this number of requests.
 fn with_workers<R>(study: &Study, workers: usize, answers: usize, run: impl FnOnce(&Elsewhere) -> R) -> R {
-    let far = WorkerStudy::new(study.clone());
+    let far = WorkerStudy::new(study.clone(), &study.data_digests()).unwrap();
     let stop = AtomicBool::new(false);
     let context = RunContext::new(Some(&stop), |_| ());
     std::thread::scope(|scope| {
@@ -136,6 +136,32 @@ fn a_lost_worker_ends_the_run() {
     assert!(matches!(lost, Err(RunError::LostWorker { .. })), "{lost:?}");
 }
 
+/// As those of a node whose copy of the program or of measured values is an old one.
+#[test]
+fn workers_with_other_files_are_refused() {
+    let study = "model = \"command\"\noutputs = [\"y\"]\n[command]\nprogram = [\"sh\", \"model.sh\"]\n\
+                 [factors]\na = { distribution = \"empirical\", file = \"a.csv\" }\n";
+    let load = |program: &str, values: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("model.sh"), program).unwrap();
+        std::fs::write(folder.path().join("a.csv"), values).unwrap();
+        let study = apportion_files::parse_study(study, &folder.path().join("s.toml"), &[]).unwrap();
+        (folder, study)
+    };
+    let (_run, study) = load("cat", "1\n2\n4\n");
+    let digests = study.data_digests();
+    for (program, values, differing) in
+        [("cat", "1\n2\n4\n", None), ("tac", "1\n2\n4\n", Some("model.sh")), ("cat", "1\n2\n5\n", Some("a.csv"))]
+    {
+        let (_rank, study) = load(program, values);
+        match (WorkerStudy::new(study, &digests), differing) {
+            (Ok(_), None) => (),
+            (Err(RunError::OtherFiles { files }), Some(expected)) => assert_eq!(files, expected),
+            (made, _) => panic!("{differing:?}: {:?}", made.err()),
+        }
+    }
+}
+
 /// The exit code of a run with these variables, and its standard error.
 #[cfg(not(feature = "mpi"))]
 fn started_with(variables: &[(&str, &str)]) -> (Option<i32>, String) {
@@ -157,6 +183,7 @@ fn a_program_without_mpi_refuses_to_run_on_ranks() {
         ("PMI_SIZE", "PMI_RANK"),
         ("MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"),
         ("SLURM_NTASKS", "PMIX_RANK"),
+        ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID"),
     ];
     let mut messages = crate::messages::messages!();
     for (size, rank) in launchers {

@@ -13,7 +13,7 @@ mod identity;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -23,7 +23,8 @@ pub(super) use format::{Reader, record, write_record};
 pub(crate) use identity::differences;
 use serde_json::Value;
 
-use super::RowBlock;
+use super::model_files::ModelFiles;
+use super::{RowBlock, RunError};
 use apportion_base::clock::Instant;
 use apportion_base::files::{read_opened, read_whole};
 
@@ -37,6 +38,8 @@ const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 #[derive(Debug)]
 pub(crate) struct Journal {
     writer: Mutex<Writer>,
+    /// The model whose outputs are appended.
+    files: Arc<ModelFiles>,
 }
 
 #[derive(Debug)]
@@ -61,7 +64,7 @@ impl Journal {
         format::write_header(&mut buffer, header);
         let written = writer.append(&buffer).and_then(|()| writer.file.sync_data());
         written.map_err(|error| JournalProblem::Unwritable(error).at(path))?;
-        Ok(Self { writer: Mutex::new(writer) })
+        Ok(Self { writer: Mutex::new(writer), files: Arc::default() })
     }
 
     /// Opens the journal at `path` to resume it, and returns it with its contents. Anything after the last complete
@@ -75,24 +78,32 @@ impl Journal {
         let bytes = read_opened(&mut file).map_err(|error| JournalProblem::Unreadable(error).at(path))?;
         let contents = read_journal(path, &bytes)?;
         let writer = Writer { file, length: contents.length, synced: Instant::now() };
-        Ok((Self { writer: Mutex::new(writer) }, contents))
+        Ok((Self { writer: Mutex::new(writer), files: Arc::default() }, contents))
     }
 
     /// Returns a journal at `path`, an empty file, to which nothing can be written.
     #[cfg(test)]
     pub(super) fn read_only(path: &Path) -> Self {
         let file = File::open(path).expect("an empty file");
-        Self { writer: Mutex::new(Writer { file, length: 0, synced: Instant::now() }) }
+        Self { writer: Mutex::new(Writer { file, length: 0, synced: Instant::now() }), files: Arc::default() }
+    }
+
+    /// Sets the files of the model whose outputs are appended.
+    pub fn with_files(self, files: &Arc<ModelFiles>) -> Self {
+        Self { files: Arc::clone(files), ..self }
     }
 
     /// Appends a block, by one write: when this returns, the block survives the death of the program.
     ///
     /// # Errors
-    /// The error of the operating system; the journal then ends with the previous record.
-    pub fn append(&self, block: &RowBlock) -> std::io::Result<()> {
+    /// [`RunError`] if the files of the model have changed, or the block cannot be written; the journal then ends with
+    /// the previous record.
+    pub fn append(&self, block: &RowBlock) -> Result<(), RunError> {
+        self.files.check()?;
         let mut record = Vec::new();
         format::write_record(&mut record, block);
-        self.writer.lock().unwrap_or_else(PoisonError::into_inner).append(&record)
+        let appended = self.writer.lock().unwrap_or_else(PoisonError::into_inner).append(&record);
+        appended.map_err(|source| RunError::NotKept { source })
     }
 
     /// Forces all appended records to the disk.
@@ -106,8 +117,16 @@ impl Journal {
 
 impl Writer {
     fn append(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        let about = self.file.metadata()?;
+        #[cfg(unix)]
+        let is_removed = std::os::unix::fs::MetadataExt::nlink(&about) == 0;
+        #[cfg(not(unix))]
+        let is_removed = false;
+        if about.len() < self.length || is_removed {
+            return Err(std::io::Error::other("another program has cut off or removed the journal"));
+        }
         // The first write of a resumed journal overwrites the damaged end.
-        if self.file.metadata()?.len() != self.length {
+        if about.len() > self.length {
             self.file.set_len(self.length)?;
         }
         self.file.seek(SeekFrom::Start(self.length))?;

@@ -42,6 +42,23 @@ fn appended_records_are_read_back() {
     assert_eq!((contents.header, contents.blocks.len()), (json!({ "study": "b" }), 0));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_journal_that_is_cut_off_or_removed_during_a_run_takes_nothing_more() {
+    for remove in [false, true] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.journal");
+        let journal = Journal::create(&path, &json!({ "study": "a" })).unwrap();
+        journal.append(&block(0, 5)).unwrap();
+        if remove {
+            std::fs::remove_file(&path).unwrap();
+        } else {
+            OpenOptions::new().write(true).open(&path).unwrap().set_len(20).unwrap();
+        }
+        assert!(matches!(journal.append(&block(5, 1)), Err(RunError::NotKept { .. })), "{remove}");
+    }
+}
+
 #[test]
 fn a_truncated_journal_keeps_every_complete_record_and_resumes() {
     let blocks = [block(0, 5), block(5, 1), block(6, 4)];

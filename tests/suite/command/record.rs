@@ -90,3 +90,42 @@ fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
     within(60, "all have ended", || !processes(&case).iter().any(is_alive));
     assert_eq!(numbers(&case.result_file().outputs[0]), numbers(&by_formula(&case, FORMULA).outputs[0]));
 }
+
+/// Runs a program that answers in 10 ms and, once some rows are on record, `changes` the case; the run must fail.
+#[cfg(unix)]
+fn changed_during_a_run(changes: impl Fn(&Case)) -> Case {
+    let case = Case::each_row("", &format!("{NOTES}    time.sleep(0.01)\n    answer(y)\n"));
+    let case = case.replace("base_samples = 32", "base_samples = 256");
+    let mut run = spawn(&["run", text(&case.path("study.toml")), "--out", text(&case.path("out"))]);
+    within(60, "rows are asked", || std::fs::read_to_string(case.path("asked")).is_ok_and(|rows| rows.len() > 8000));
+    changes(&case);
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    assert!(!case.path("out/study.json").exists());
+    case
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_that_changes_during_a_run_is_noticed_and_its_rows_are_not_recorded() {
+    let case = changed_during_a_run(|case| {
+        let program = std::fs::read_to_string(case.path("model.py")).unwrap();
+        case.write("model.py", &program.replace("2*x[1]", "3*x[1]"));
+    });
+    assert_eq!(case.run_with(&["--resume"]).status.code(), Some(2));
+    // Once the change is undone, the recorded runs are those of this program.
+    let program = std::fs::read_to_string(case.path("model.py")).unwrap();
+    case.write("model.py", &program.replace("3*x[1]", "2*x[1]"));
+    let resumed = case.run_with(&["--resume"]);
+    assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
+    assert_eq!(numbers(&case.result_file().outputs[0]), numbers(&by_formula(&case, FORMULA).outputs[0]));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_journal_that_is_removed_or_cut_off_during_a_run_is_noticed() {
+    let journal = |case: &Case| case.path("out/study.journal");
+    changed_during_a_run(|case| std::fs::remove_file(journal(case)).unwrap());
+    changed_during_a_run(|case| {
+        std::fs::File::options().write(true).open(journal(case)).unwrap().set_len(900).unwrap()
+    });
+}

@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
         Some(mpi_ranks) => {
             // A job has a rank for every core by default.
             let threads = arguments.threads.number().max(1);
-            let ranks = mpi_ranks.begin(&study, &arguments.study.study, threads);
+            let ranks = mpi_ranks.begin(&study, &arguments.study.study, threads)?;
             let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
             say(&format!("note: {ranks} ranks with {workers} each"));
             runner.threads(threads).remote_workers(mpi_ranks)

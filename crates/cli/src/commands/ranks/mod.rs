@@ -13,18 +13,22 @@ use apportion::study::Study;
 pub trait Ranks: RemoteWorkers {
     /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers; returns how
     /// many ranks there are, rank 0 included.
-    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize;
+    ///
+    /// # Errors
+    /// If the path is not text in UTF-8.
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> anyhow::Result<usize>;
 }
 
 /// Set to `off`, this lets every process of a job be a program by itself.
 const SWITCH: &str = "APPORTION_MPI";
 
 /// Where launchers say how many processes there are, and which of them this one is.
-const VARIABLES: [(&str, &str); 4] = [
+const VARIABLES: [(&str, &str); 5] = [
     ("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"),
     ("PMI_SIZE", "PMI_RANK"),
     ("MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"),
     ("SLURM_NTASKS", "PMIX_RANK"),
+    ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID"),
 ];
 
 /// The number of ranks of the MPI job in which this process was started, if there are more than one, and its own.

@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Ranks;
 use crate::commands::{exit_code, say, stop};
+use crate::failure::bad_input;
 
 /// Times between two looks at messages: after one, and when nothing has come for long.
 const SHORT: Duration = Duration::from_micros(20);
@@ -47,6 +48,8 @@ struct Setup {
     path: PathBuf,
     overrides: Vec<String>,
     threads: usize,
+    /// Digests of the files that the study reads.
+    files: serde_json::Value,
 }
 
 /// Runs `command` on rank 0, with the other ranks to work for it.
@@ -117,21 +120,22 @@ impl RemoteWorkers for Others {
 }
 
 impl Ranks for Others {
-    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize {
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> anyhow::Result<usize> {
         let setup = Setup {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             source: study.source().to_owned(),
             path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
             overrides: study.overrides().to_vec(),
             threads,
+            files: study.data_digests(),
         };
-        let setup = serde_json::to_vec(&setup).unwrap_or_default();
+        let setup = serde_json::to_vec(&setup).map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
         let (inboxes, answers) = (1..self.size).flat_map(|_| 0..threads).map(|_| mpsc::channel()).unzip();
         let answers: Vec<Receiver<Vec<u8>>> = answers;
         if self.answers.set(answers.into_iter().map(Mutex::new).collect()).is_ok() {
             let _ = self.letters.send(Letter::Begin { setup, threads, inboxes });
         }
-        self.size
+        Ok(self.size)
     }
 }
 
@@ -227,7 +231,7 @@ fn work(world: &SimpleCommunicator) -> ExitCode {
     let mut setup = vec![0_u8; length[0] as usize];
     broadcast(world, &mut setup[..]);
     match study(&setup) {
-        Ok((study, threads)) => serve(world, &WorkerStudy::new(study), threads),
+        Ok((study, threads)) => serve(world, &study, threads),
         Err(why) => {
             say(&format!("error: rank {}: {why}", world.rank()));
             world.abort(1)
@@ -237,12 +241,12 @@ fn work(world: &SimpleCommunicator) -> ExitCode {
 }
 
 /// The study that is to be worked for, and how many workers are to.
-fn study(setup: &[u8]) -> anyhow::Result<(Study, usize)> {
-    let Setup { version, source, path, overrides, threads } = serde_json::from_slice(setup)?;
+fn study(setup: &[u8]) -> anyhow::Result<(WorkerStudy, usize)> {
+    let Setup { version, source, path, overrides, threads, files } = serde_json::from_slice(setup)?;
     if version != env!("CARGO_PKG_VERSION") {
         return Err(anyhow!("this rank is version {}, but rank 0 is version {version}", env!("CARGO_PKG_VERSION")));
     }
-    Ok((apportion_files::parse_study(&source, &path, &overrides)?, threads))
+    Ok((WorkerStudy::new(apportion_files::parse_study(&source, &path, &overrides)?, &files)?, threads))
 }
 
 /// The requests to one worker of this rank.
