@@ -14,7 +14,7 @@ mod study;
 pub use catalogue::ModelKind;
 pub use command::{
     CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickMethod, Program,
-    Protocol, Source, TemplateError, parse_answer,
+    Protocol, Source, TemplateError, end_all_programs, parse_answer,
 };
 pub use study::{
     Diagnostic, ExpressionSubject, Formula, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, load_study,

@@ -62,6 +62,14 @@ fn invalid_answers_after_a_row_number_are_reported() {
         words(Protocol::JsonLines, r#"{"id": 7, "y1": 1, "y2": true}"#),
         format!("{object} true or false as `y2`")
     );
+    // What no parser of JSON has to read, with the number of a row all the same.
+    let deep = format!("{{\"note\": {}{}, \"id\": 7, \"y1\": 1, \"y2\": 2}}", "[".repeat(500), "]".repeat(500));
+    for line in [r#"{"id": 7, "y1": 1e400, "y2": 2}"#, r#"{"y1": 1, "id": "7", "y2": 2, "note": "\ud800"}"#, &deep] {
+        assert!(words(Protocol::JsonLines, line).starts_with(object), "{line}");
+    }
+    for stray in [r#"{"id": 7, "y1": 1e400"#, r#"solved {"id": 7, "y1": 1e400}"#, r#"{"id": 7.5, "y1": 1e400}"#] {
+        assert_eq!(read(Protocol::JsonLines, 1, stray), None, "{stray}");
+    }
 }
 
 /// Reads a JSON object with row number 7: the values of these outputs, or what was found in their place.

@@ -2,8 +2,10 @@
 
 use apportion_files::{InputTemplate, TemplateError};
 
+#[cfg(target_os = "linux")]
+use super::processes::within;
 use super::{Case, only_reason, rows_where};
-use crate::common::files;
+use crate::common::{files, text};
 use crate::messages::messages;
 
 /// A simulator that starts faster than Python: it reads `model.in` and writes according to `more`.
@@ -66,6 +68,40 @@ fn a_file_from_before_the_run_is_not_an_output() {
     case.write("out.txt", "y = 7\n");
     let (result, _) = case.result();
     messages!().add("a file of before", only_reason(&result.outputs[0], rows_where(|x| x > 0.9)));
+}
+
+/// Programs may set any time: what they write is theirs.
+#[test]
+fn an_output_with_an_old_time_is_read() {
+    let more = "print \"y = \" y > \"out.txt\"; close(\"out.txt\"); system(\"touch -d @0 out.txt\")";
+    let (result, _) = simulator("", REPORT, more).result();
+    assert_eq!(result.outputs[0].runs_failed, 0);
+}
+
+/// Directories of a killed run are removed by the next one, and nothing else is.
+#[cfg(target_os = "linux")]
+#[test]
+fn directories_of_a_killed_run_are_removed() {
+    let answer = "print \"y = \" y > \"out.txt\"";
+    let case = simulator("", REPORT, &format!("{answer}; if (x1 > 0.5) system(\"sleep 1000\")"));
+    let temporary = case.path("tmp");
+    let mine = [".apportion-notes", ".apportion-aB3dE5gH7jK9mN1p.old"];
+    mine.iter().for_each(|name| std::fs::create_dir_all(temporary.join(name)).unwrap());
+    let run = |out: &str| {
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("apportion"));
+        command.env("TMPDIR", &temporary).args(["run", text(&case.path("study.toml")), "--out", text(&case.path(out))]);
+        command.stderr(std::process::Stdio::null()).spawn().unwrap()
+    };
+    let mut killed = run("out");
+    within(60, "two runs hang", || files(&temporary).len() >= 4);
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert_eq!(files(&temporary).len(), 4);
+    let program = std::fs::read_to_string(case.path("model.awk")).unwrap();
+    case.write("model.awk", &program.replace("sleep 1000", "true"));
+    assert!(run("again").wait().unwrap().success());
+    assert_eq!(files(&temporary), mine.map(str::to_owned).into());
 }
 
 #[test]

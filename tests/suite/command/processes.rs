@@ -98,3 +98,45 @@ fn a_killed_engine_takes_its_programs_along() {
     run.wait().unwrap();
     within(60, "all have ended", || !processes(&case).iter().any(is_alive));
 }
+
+/// A process in a session of its own keeps the program's output open after its end.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_program_that_ends_and_leaves_a_daemon_does_not_hang_the_run() {
+    let daemon = "subprocess.Popen(['sleep', '100'], start_new_session=True)";
+    let case = Case::each_row(
+        "",
+        &format!(
+            "    if x[0] > 0.9:\n        import subprocess\n        child = {daemon}\n        \
+             open(f'pid-{{child.pid}}', 'w')\n        os._exit(1)\n    answer(y)\n"
+        ),
+    );
+    let begun = Instant::now();
+    let output = case.run();
+    let took = begun.elapsed();
+    for pid in processes(&case) {
+        Command::new("kill").arg(pid).status().unwrap();
+    }
+    assert_eq!(output.status.code(), Some(0), "{}", crate::common::stderr(&output));
+    assert!(took < Duration::from_secs(90), "{took:?}");
+    assert_eq!(case.result_file().outputs[0].runs_failed, super::rows_where(|x| x > 0.9));
+}
+
+/// The second signal ends the program at once, and what its programs have started.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_second_signal_leaves_no_process() {
+    let case = worker(HANGS).replace("workers = 2", "workers = 1");
+    let ignoring = "    import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN)\n";
+    let program = std::fs::read_to_string(case.path("model.py")).unwrap();
+    case.write("model.py", &program.replace("    n += 1\n", &format!("    n += 1\n{ignoring}")));
+    let mut run = started(&case);
+    within(60, "a worker hangs", || processes(&case).len() >= 2);
+    std::thread::sleep(Duration::from_millis(500));
+    signal("-INT", &run);
+    // Before the worker has noticed the first one.
+    std::thread::sleep(Duration::from_millis(10));
+    signal("-INT", &run);
+    run.wait().unwrap();
+    within(60, "all have ended", || !processes(&case).iter().any(is_alive));
+}

@@ -12,6 +12,7 @@ pub fn on_signal() -> &'static AtomicBool {
     INSTALLED.get_or_init(|| {
         let installed = ctrlc::set_handler(|| {
             if STOP.swap(true, Ordering::SeqCst) {
+                apportion_files::end_all_programs();
                 std::process::exit(1);
             }
             super::say("stopping after the runs in progress (press Ctrl-C again to stop at once)");

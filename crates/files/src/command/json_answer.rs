@@ -46,6 +46,13 @@ pub(super) fn json(text: &str) -> Result<Value, String> {
     parsed.map_err(|_| format!("`{}`", masked(text)))
 }
 
+/// Returns the first value of a key `id` in a whole object that [`json`] cannot read.
+pub(super) fn number_of_invalid(text: &str) -> Option<&str> {
+    static ID: LazyLock<Regex> =
+        LazyLock::new(|| Regex::new(r#"^\{.*?"id"\s*:\s*"?([0-9.eE+]+)"?\s*[,}]"#).expect("a regular expression"));
+    Some(ID.captures(text).filter(|_| text.ends_with('}'))?.get(1)?.as_str())
+}
+
 /// Converts `parsed` to a reply: one value for each of `outputs`, or why the row failed. The error describes it.
 pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, String> {
     let mut values = Vec::with_capacity(outputs.len());

@@ -120,6 +120,8 @@ impl<'a> KeptAliveWorker<'a> {
                 let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
                 return Err(Fault::Process(format!("no answer within {timeout}{hint}")));
             }
+            // A process outside its group may still hold its output open, but it has printed all.
+            None if session.has_ended => return Err(Fault::Process(closed(session))),
             None => self.wait(session),
         }
         Ok(())
@@ -175,8 +177,7 @@ impl<'a> KeptAliveWorker<'a> {
     /// Handles a timeout without events.
     fn wait(&self, session: &mut Session) {
         let state = &self.model.state;
-        // Other processes that it has started may hold its output open.
-        session.process.clear_away();
+        session.has_ended = session.process.clear_away();
         let silent_for = session.silent_for();
         let quiet = match state.has_answered() {
             true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),

@@ -24,8 +24,8 @@ use kept_alive::KeptAliveWorker;
 pub use per_run::PerRun;
 use per_run::PerRunWorker;
 pub use pick::{Match, Pick, PickMethod, Source};
-pub use program::Program;
 pub(crate) use program::program_files;
+pub use program::{Program, end_all_programs};
 pub use protocol::{Protocol, parse_answer};
 pub(crate) use template::TemplateProblem;
 pub use template::{InputTemplate, TemplateError};
@@ -125,6 +125,8 @@ struct State {
     /// Whether hints on its silence, and on lines that are not replies, have been given.
     hinted: OnceLock<()>,
     strayed: OnceLock<()>,
+    /// Whether the directories of killed runs have been removed.
+    cleared: OnceLock<()>,
 }
 
 /// Maximum number of rows that may fail before the first reply.

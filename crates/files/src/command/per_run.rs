@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::Mutex;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant, UNIX_EPOCH};
 
 use apportion::model::{Batch, RowFailure, RunContext, Worker};
 use apportion_base::digest::sha256;
+use apportion_base::files::{TEMPORARY, remove_left_overs};
 use apportion_base::text::seconds;
-use tempfile::TempDir;
 
 use super::pick::{MAX_BYTES, STDOUT, Source, Texts};
 use super::process::listen;
@@ -38,8 +38,8 @@ pub struct PerRun {
 const STDERR: &str = "stderr.txt";
 
 /// Modification time set for files that are copied for a run, if outputs are read from them: a run that has not written
-/// them has no output.
-const BEFORE: SystemTime = SystemTime::UNIX_EPOCH;
+/// them has no output. No program sets this time, in seconds since 1970.
+const BEFORE: Duration = Duration::from_secs(97_446);
 
 pub(super) struct PerRunWorker<'a> {
     model: &'a CommandModel,
@@ -82,11 +82,15 @@ impl<'a> PerRunWorker<'a> {
         RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
     }
 
-    /// Creates a directory for a run, which is removed with its contents unless it is kept.
-    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, Option<TempDir>)> {
+    /// Creates a directory for a run; unless it is kept, it is removed with its contents when the second value is dropped.
+    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, impl Sized)> {
         let Some(keep) = &self.form.keep else {
-            let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
-            return Ok((temporary.path().to_owned(), Some(temporary)));
+            let (prefix, suffix, random) = TEMPORARY;
+            self.model.state.cleared.get_or_init(|| remove_left_overs(&std::env::temp_dir()));
+            let temporary = tempfile::Builder::new().prefix(prefix).suffix(suffix).rand_bytes(random).tempdir()?;
+            // The lock tells other processes that it is in use; some file systems have no locks.
+            let lock = File::open(temporary.path()).inspect(|folder| drop(folder.try_lock())).ok();
+            return Ok((temporary.path().to_owned(), Some((temporary, lock))));
         };
         let text = table(&self.columns, inputs, row);
         // The same point has the same directory in any order of runs.
@@ -106,7 +110,7 @@ impl<'a> PerRunWorker<'a> {
             std::fs::copy(file, &copy)?;
             if self.is_read(name) {
                 // If that is refused, an unchanged file counts as written by the run.
-                let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(BEFORE));
+                let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(UNIX_EPOCH + BEFORE));
             }
         }
         let text = self.form.template.fill(|factor, out| self.columns[factor].write(inputs[factor][row], out));
@@ -210,5 +214,5 @@ impl Worker for PerRunWorker<'_> {
 
 /// Returns whether a run has not written a file that was copied for it.
 fn is_from_before(path: &Path) -> bool {
-    std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
+    std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == UNIX_EPOCH + BEFORE)
 }

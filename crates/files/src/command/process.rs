@@ -106,11 +106,10 @@ impl Process {
         self.input = None;
     }
 
-    /// Ends the processes it has left behind if it has ended by itself: these may hold its output open.
-    pub(super) fn clear_away(&mut self) {
-        if self.running.has_ended() {
-            self.running.end();
-        }
+    /// Ends the processes it has left behind if it has ended by itself, and returns whether it has: these may hold its
+    /// output open.
+    pub(super) fn clear_away(&mut self) -> bool {
+        self.running.has_ended().then(|| self.running.end()).is_some()
     }
 
     /// Queues a text to be written; [`Event::Sent`] follows.

@@ -1,8 +1,10 @@
 //! The user's program as a child process: started without a shell, ended with all processes it started.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use apportion_base::text::masked;
@@ -59,7 +61,7 @@ impl Program {
             _ if error.to_string().contains("format") => {
                 "begin it with a line such as #!/bin/sh, or name its interpreter first".to_owned()
             }
-            _ => "try it by hand".to_owned(),
+            _ => "try it by hand, and with fewer `workers`".to_owned(),
         };
         format!("cannot start the program `{name}`: {error}; {help}")
     }
@@ -128,8 +130,23 @@ pub(super) struct Running {
     ended: Option<Option<ExitStatus>>,
 }
 
+/// The programs that have not been waited for: their numbers are not reused.
+static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+
+/// Ends all programs of this process with all processes that they started, for a caller that is about to exit: only
+/// the programs themselves end with it.
+pub fn end_all_programs() {
+    #[cfg(unix)]
+    for number in RUNNING.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        if let Some(group) = rustix::process::Pid::from_raw(number.cast_signed()) {
+            let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+        }
+    }
+}
+
 impl Running {
     pub(super) fn new(child: Child) -> Self {
+        RUNNING.lock().unwrap_or_else(PoisonError::into_inner).insert(child.id());
         Self { child, ended: None }
     }
 
@@ -177,6 +194,7 @@ impl Running {
         }
         #[cfg(not(unix))]
         let _ = self.child.kill();
+        RUNNING.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.child.id());
         let status = self.child.wait().ok();
         self.ended = Some(status);
         status

@@ -9,7 +9,7 @@ use apportion_base::quantity::Unit;
 use apportion_base::text::{cut, masked};
 use serde_json::Value;
 
-use super::json_answer::{Answer, failed, json, json_answer, keys_in_words};
+use super::json_answer::{Answer, failed, json, json_answer, keys_in_words, number_of_invalid};
 use crate::exchange::{ColumnKind, factor_column};
 
 named! {
@@ -52,13 +52,15 @@ pub fn parse_answer(protocol: Protocol, outputs: &[String], line: &[u8]) -> Resu
             Some((row_number(number.trim().trim_matches('"'))?, csv_answer(outputs, rest.trim())))
         }),
         Protocol::JsonLines => {
-            let parsed = json(text).map_err(|words| unexpected(protocol, outputs, &words))?;
-            let number = match parsed.get("id") {
-                Some(Value::Number(number)) => row_number(&number.to_string()),
-                Some(Value::String(text)) => row_number(text),
-                _ => None,
+            let parsed = json(text);
+            let number = match parsed.as_ref().map(|parsed| parsed.get("id")) {
+                Ok(Some(Value::Number(number))) => row_number(&number.to_string()),
+                Ok(Some(Value::String(text))) => row_number(text),
+                Ok(_) => None,
+                // Such as 1e400, half of a surrogate pair, and too many levels.
+                Err(_) => number_of_invalid(text).and_then(row_number),
             };
-            number.map(|number| (number, json_answer(outputs, &parsed)))
+            number.map(|number| (number, parsed.and_then(|parsed| json_answer(outputs, &parsed))))
         }
     };
     let Some((number, answer)) = numbered else {

@@ -29,6 +29,8 @@ pub(super) struct Session {
     pub pending: BTreeMap<u64, usize>,
     /// Whether its input is closed.
     pub is_closed: bool,
+    /// Whether the program itself has ended, seen after a time without events.
+    pub has_ended: bool,
     /// The time of the last reply, or of the first row sent after a pause.
     last_reply: Instant,
     /// Bytes of lines that were not replies since the last reply, and a description of the last such line.
@@ -54,6 +56,7 @@ impl Session {
             sent: 0,
             pending: BTreeMap::new(),
             is_closed: false,
+            has_ended: false,
             last_reply: Instant::now(),
             strayed: 0,
             stray: None,
