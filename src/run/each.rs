@@ -35,7 +35,7 @@ pub fn run_each<T: Send>(
         output.ok()
     };
     let all = || (0..count).into_par_iter().map_init(|| model.worker(context), evaluate).collect::<Option<Vec<T>>>();
-    let outputs = match thread_pool(threads)? {
+    let outputs = match thread_pool(threads) {
         Some(pool) => pool.install(all),
         None => all(),
     };

@@ -78,14 +78,17 @@ impl<'a> Executor<'a> {
         } else {
             // Workers may wait for programs and other machines: they get separate threads, not the pool's.
             std::thread::scope(|scope| {
-                for _ in 0..local_count {
-                    scope.spawn(move || execution.work());
-                }
                 for (worker, (remote, rows)) in (0..remote_count).zip(std::iter::repeat(remote).flatten()) {
                     let thread = std::thread::Builder::new().stack_size(STACK);
                     let spawned = thread.spawn_scoped(scope, move || execution.work_remotely(remote, worker, rows));
                     if let Err(source) = spawned {
                         tracker.end(RunError::Threads { threads: workers, source: source.into() });
+                    }
+                }
+                for _ in 0..local_count {
+                    // This thread works too if no more can be started.
+                    if std::thread::Builder::new().spawn_scoped(scope, move || execution.work()).is_err() {
+                        return execution.work();
                     }
                 }
             });

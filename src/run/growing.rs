@@ -45,16 +45,13 @@ impl<'a> GrowingRun<'a> {
     ///
     /// # Panics
     /// If the number of factors of the space differs from that of the design.
-    ///
-    /// # Errors
-    /// [`RunError::Threads`] if the threads cannot be started.
-    pub fn new(job: Job<'a>, context: &'a RunContext<'a>, threads: usize) -> Result<Self, RunError> {
+    pub fn new(job: Job<'a>, context: &'a RunContext<'a>, threads: usize) -> Self {
         assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
-        Ok(Self {
+        Self {
             job,
             context,
             executor: Executor::new(job.model, context, threads),
-            pool: thread_pool(threads)?,
+            pool: thread_pool(threads),
             start: Instant::now(),
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
@@ -62,7 +59,7 @@ impl<'a> GrowingRun<'a> {
             journal: None,
             points: 0,
             totals: Vec::new(),
-        })
+        }
     }
 
     /// Adds remote workers, which evaluate rows of a run with a store.
@@ -193,14 +190,13 @@ impl<'a> GrowingRun<'a> {
 }
 
 /// Creates a pool of `threads` threads (0: one per core); `None` if the caller already has this many, because starting
-/// a pool takes longer than many runs.
-pub(super) fn thread_pool(threads: usize) -> Result<Option<ThreadPool>, RunError> {
+/// a pool takes longer than many runs, or if the system does not let so many start.
+pub(super) fn thread_pool(threads: usize) -> Option<ThreadPool> {
     let threads = threads_in_force(threads);
     // A web page has one thread, and cannot start another.
     let is_page = cfg!(target_family = "wasm");
     if is_page || rayon::current_thread_index().is_none() && rayon::current_num_threads() == threads {
-        return Ok(None);
+        return None;
     }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map(Some).map_err(|source| RunError::Threads { threads, source: source.into() })
+    ThreadPoolBuilder::new().num_threads(threads).build().ok()
 }

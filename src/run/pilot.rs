@@ -32,6 +32,7 @@ impl Pilot {
     pub fn new(study: &Study, context: &RunContext<'_>) -> Result<Self, RunError> {
         const MIN_SECONDS: f64 = 0.3;
         const MAX_ROWS: u64 = 1 << 18;
+        const MAX_NUMBERS: u64 = 1 << 24;
         let (design, space, model) = (study.design(), study.space(), study.model());
         let mut worker = RowWorker::new(model.as_ref(), context);
         let mut seconds_of = |rows: u64| {
@@ -40,10 +41,11 @@ impl Pilot {
         };
         let first = seconds_of(1)?;
         let rows = design.points_per_replicate() * design.rows_per_point();
+        let max_rows = rows.min(MAX_ROWS).min(MAX_NUMBERS / (design.factors() + model.outputs().len()) as u64);
         let (mut runs, mut seconds) = (1, seconds_of(1)?);
         let startup = (first - seconds).max(0.0);
-        while seconds < MIN_SECONDS && runs < rows.min(MAX_ROWS) {
-            runs = (runs * 4).min(rows).min(MAX_ROWS);
+        while seconds < MIN_SECONDS && runs < max_rows {
+            runs = (runs * 4).min(max_rows);
             seconds = seconds_of(runs)?;
         }
         // Every batch begins with the first row, and the last one has all rows, with their failures.

@@ -14,7 +14,7 @@ pub(super) fn run(
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Totals>, RunError> {
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, threads)?;
+    let mut run = GrowingRun::new(job, &context, threads);
     run.grow_to(job.design.points_per_replicate(), on_progress)?;
     Ok(run.totals)
 }
@@ -93,7 +93,7 @@ fn a_run_that_grows_ends_in_the_bits_of_a_run_that_began_long_and_runs_no_row_tw
         let model = Sum::new(true);
         let space = space();
         let context = RunContext::default();
-        let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, &context, 2).unwrap();
+        let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, &context, 2);
         let rows = AtomicU64::new(0);
         let count = |progress: Progress| {
             rows.fetch_max(progress.done, Ordering::Relaxed);
@@ -123,7 +123,7 @@ fn a_run_can_be_given_up_at_the_first_failure() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 2).unwrap();
+    let mut run = GrowingRun::new(job, &context, 2);
     run.failures = FailurePolicy::Fail;
     let failed = run.grow_to(1 << 15, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = failed else { panic!("{failed}") };
@@ -300,7 +300,7 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
         let design = design(Sampler::Random, 1000, 2);
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, threads).unwrap();
+        let mut run = GrowingRun::new(job, &context, threads);
         run.keeps_outputs = true;
         run.grow_to(300, &|_| ()).unwrap();
         run.grow_to(500, &|_| ()).unwrap();
@@ -322,7 +322,7 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
     let long = design(Sampler::Random, 1 << 29, 1);
     let job = Job { design: &long, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 1).unwrap();
+    let mut run = GrowingRun::new(job, &context, 1);
     assert!(run.room_for(1 << 29).is_ok());
     run.keeps_outputs = true;
     assert!(run.room_for(1 << 28).is_ok());

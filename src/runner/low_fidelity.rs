@@ -133,7 +133,7 @@ impl<'a> TimedRun<'a> {
     /// Creates an empty run of the model with index `subject`.
     fn new(runner: &Runner<'a>, subject: usize, part: &'a LowPart, context: &'a RunContext) -> Result<Self, RunError> {
         let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
-        let mut run = GrowingRun::new(job, context, runner.threads)?.with_remote(runner.remote_for(subject));
+        let mut run = GrowingRun::new(job, context, runner.threads).with_remote(runner.remote_for(subject));
         run.keeps_outputs = true;
         run.journal = Some(&part.journal.open);
         let is_stored = part.model.is_slow() || part.journal.open.get().is_some() || runner.remote.is_some();

@@ -37,7 +37,7 @@ impl<'a> Runner<'a> {
             let source = format!("at most {MAX_THREADS}").into();
             return Err(RunError::Threads { threads: self.threads, source });
         }
-        let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
+        let mut run = GrowingRun::new(job, context, self.threads).with_remote(self.remote_for(0));
         run.failures = self.study.analysis.failures;
         run.keeps_outputs = self.study.needs_outputs();
         run.journal = Some(&journal.open);

@@ -161,6 +161,15 @@ fn options_that_need_a_journal_or_a_size_are_refused_without_one() {
 }
 
 #[test]
+fn pilot_runs_of_many_factors_take_little_memory() {
+    let factors = 2000;
+    let study = (0..factors).fold(sum(), |study, k| study.factor(&format!("x{k}"), unit()));
+    let study = study.base_samples(1 << 16).sampler(Sampler::Random).build().unwrap();
+    let pilot = apportion::run::Pilot::new(&study, &apportion::RunContext::default()).unwrap();
+    assert!(pilot.runs * factors <= 1 << 24, "{} runs", pilot.runs);
+}
+
+#[test]
 fn a_journal_distinguishes_functions_by_version() {
     let folder = tempfile::tempdir().unwrap();
     let journal = folder.path().join("j");

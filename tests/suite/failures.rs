@@ -275,6 +275,30 @@ fn results_that_cannot_be_written_are_found_before_the_run() {
     messages!().refused(&["run", text(&study_path("coulomb-dimensional")), "--out", text(&file.join("out"))]);
 }
 
+/// A system that gives no stack to a second thread, as one that limits their number.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_threads_everything_is_done_by_one() {
+    let folder = Folder::new();
+    let program = folder.with("model.sh", "while IFS=, read -r id x; do [ $id = id ] || echo $id,$x; done\n");
+    let command = format!("model = \"command\"\noutputs = [\"y\"]\ncommand.program = [\"sh\", {program:?}]\n{SMALL}");
+    for (study, code) in [(format!("model = \"expression\"\noutputs.y = \"x\"\n{SMALL}"), 0), (command, 1)] {
+        let path = folder.with("s.toml", study);
+        let run = |stack: &str, out: &str| {
+            let (path, out) = (text(&path), folder.path(out));
+            let mut run = crate::common::program();
+            run.env("RUST_MIN_STACK", stack).args(["run", path, "--no-journal", "--force", "--out", text(&out)]);
+            (run.output().unwrap(), std::fs::read(out.join("s.csv")).unwrap_or_default())
+        };
+        let ((usual, expected), (limited, csv)) = (run("2000000", "usual"), run("1000000000000000000", "limited"));
+        assert!(usual.status.success(), "{}", stderr(&usual));
+        assert_eq!(limited.status.code(), Some(code), "{}", stderr(&limited));
+        assert!(code == 1 || csv == expected);
+    }
+}
+
+const SMALL: &str = "design.base_samples = 64\n[factors]\nx = { min = 0, max = 1 }\n";
+
 #[test]
 fn points_that_are_wrong() {
     let mut messages = messages!();

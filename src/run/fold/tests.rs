@@ -21,7 +21,7 @@ fn fold(job: Job<'_>, points: Range<u64>) -> Vec<Totals> {
     let context = RunContext::default();
     let before = Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO };
     let tracker = Tracker::new(&context, before, Instant::now(), &|_| ());
-    let run = GrowingRun::new(job, &context, 0).unwrap();
+    let run = GrowingRun::new(job, &context, 0);
     Fold { run: &run, tracker: &tracker, idle: Mutex::default() }.run(points).unwrap()
 }
 

@@ -34,7 +34,7 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
 fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
     let space = space();
     let context = RunContext::default();
-    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?;
+    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2);
     run.store = Some(store);
     run.grow_to(points, &|_| ())?;
     Ok(run.totals().to_vec())
@@ -86,7 +86,7 @@ fn shards_make_up_the_whole_run() {
         let space = space();
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, 2).unwrap();
+        let mut run = GrowingRun::new(job, &context, 2);
         run.journal = Some(&journal);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
         for block in read_journal_file(&path).unwrap().blocks {
@@ -110,7 +110,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
         stop.fetch_or(progress.done > 1000, Ordering::Relaxed);
     };
     let context = RunContext::new(Some(&stop), |_| ());
-    let mut stopped = GrowingRun::new(job, &context, 2).unwrap();
+    let mut stopped = GrowingRun::new(job, &context, 2);
     stopped.store = Some(&store);
     let slow = |progress| {
         on_progress(progress);
@@ -135,7 +135,7 @@ fn a_run_without_a_store_stops_too() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::new(Some(&stop), |_| ());
-    let mut run = GrowingRun::new(job, &context, 2).unwrap();
+    let mut run = GrowingRun::new(job, &context, 2);
     let error = run.grow_to(u64::MAX, &|_| stop.store(true, Ordering::Relaxed)).unwrap_err();
     assert!(matches!(error, RunError::Interrupted { .. }), "{error}");
     assert!(rows.load(Ordering::Relaxed) < design.rows());
@@ -197,7 +197,7 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 2).unwrap();
+    let mut run = GrowingRun::new(job, &context, 2);
     run.store = Some(&store);
     run.journal = Some(&journal);
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
@@ -214,7 +214,7 @@ fn a_failed_row_stops_a_run_that_stops_at_failures() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 1).unwrap();
+    let mut run = GrowingRun::new(job, &context, 1);
     (run.store, run.failures) = (Some(&store), FailurePolicy::Fail);
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = error else { panic!("{error}") };

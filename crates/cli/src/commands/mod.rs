@@ -33,6 +33,7 @@ use std::process::ExitCode;
 use apportion::study::Study;
 use clap::{Args, Parser, Subcommand};
 use ranks::Ranks;
+use rayon::ThreadPoolBuilder;
 
 use crate::failure::{self, Silent, bad_input};
 
@@ -184,6 +185,10 @@ fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
     stop::ignore_sigxfsz();
+    // Where threads are limited, this one does all work: rayon's own pool would panic.
+    if ThreadPoolBuilder::new().build().is_err() {
+        let _ = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    }
     #[cfg(feature = "mpi")]
     if let Some((size, _)) = ranks::job() {
         return ranks::mpi::main(size, |mpi_ranks| command_line(Some(mpi_ranks)));
