@@ -170,22 +170,24 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         for &number in &numbers {
             refuse_uncorrelated(&factors[number])?;
         }
-        let pairs = (0..numbers.len()).flat_map(|i| (i + 1..numbers.len()).map(move |j| (i, j)));
-        for (i, j) in pairs {
+        // Equal pairs in a row share an integral.
+        let mut last = None;
+        for (i, j) in (0..numbers.len()).flat_map(|i| (i + 1..numbers.len()).map(move |j| (i, j))) {
             let (a, b) = (numbers[i], numbers[j]);
             let [first, second] = [a, b].map(|number| &factors[number]);
             if stated[(a, b)] {
                 return refused(format!("the correlation of `{}` and `{}` is stated twice", first.name, second.name));
             }
             (stated[(a, b)], stated[(b, a)]) = (true, true);
-            let of_scores = of_normal_scores(dependence.measure, dependence.correlation[i][j], first, second)?;
+            let pair = (dependence.correlation[i][j], first.distribution(), second.distribution());
+            let shared = last.filter(|(last, _)| *last == pair).map(|(_, of_scores)| Ok(of_scores));
+            let of_scores = shared.unwrap_or_else(|| of_normal_scores(dependence.measure, pair.0, first, second))?;
+            last = Some((pair, of_scores));
             (scores[(a, b)], scores[(b, a)]) = (of_scores, of_scores);
         }
     }
-    if dependences.is_empty() {
-        return Ok(None);
-    }
-    GaussianCopula::new(scores).map(Some).map_err(|nearest| {
+    let copula = (!dependences.is_empty()).then(|| GaussianCopula::new(scores));
+    copula.transpose().map_err(|nearest| {
         let tied: Vec<usize> =
             (0..factors.len()).filter(|&i| (0..factors.len()).any(|j| j != i && stated[(i, j)])).collect();
         let names: Vec<&String> = tied.iter().map(|&i| &factors[i].name).collect();

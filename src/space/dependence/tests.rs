@@ -53,6 +53,20 @@ fn pearson_correlations_of_log_normal_factors_have_a_closed_form() {
 }
 
 #[test]
+fn equal_pairs_share_an_integral_and_others_do_not() {
+    let exponential = Distribution::exponential(2.0, 0.0).unwrap();
+    let space = space(vec![exponential.clone(), exponential.clone(), exponential, uniform()]);
+    let stated = [[1.0, 0.3, 0.3, 0.3], [0.3, 1.0, 0.2, 0.3], [0.3, 0.2, 1.0, 0.3], [0.3, 0.3, 0.3, 1.0]];
+    let names = ["a", "b", "c", "d"];
+    let together = copula(&space, &[Dependence::new(&names, stated.map(Vec::from).to_vec())]).unwrap().unwrap();
+    for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+        let pair = Dependence::pair(names[i], names[j], stated[i][j]);
+        let alone = copula(&space, &[pair]).unwrap().unwrap().rows()[i][j];
+        assert_eq!(together.rows()[i][j], alone, "{i} and {j}");
+    }
+}
+
+#[test]
 fn discrete_factors_have_pearson_correlations_too() {
     let laws = vec![Distribution::integer(0.0, 9.0).unwrap(), Distribution::exponential(2.0, 0.0).unwrap()];
     let space = space(laws);
