@@ -26,6 +26,9 @@ const LAST_ITERATIONS: usize = 12;
 const TERMS: usize = 100;
 const PLACES: usize = 50;
 
+/// Rows on either side of a knot between which it is moved.
+const NEIGHBOURS: usize = 8;
+
 /// A knot that is tried.
 #[derive(Clone, Copy)]
 struct Place {
@@ -40,9 +43,24 @@ pub fn with_knots(prior: &Prior) -> Option<Prior> {
     (!prior.knots.is_empty()).then_some(prior)
 }
 
-/// Adds one at a time the knot whose own best variance raises the evidence most.
+/// Adds knots by the evidence of some rows, moves them to where all rows show them, and then those that appear
+/// in twice as many rows: the first ones hide them.
 fn add_knots(prior: &mut Prior) {
     let rows = prior.fitted_rows();
+    for rows in [rows, prior.rows.min(2 * rows)] {
+        let before = prior.knots.len();
+        add_by_evidence(prior, rows);
+        if prior.knots.len() == before {
+            break;
+        }
+        if prior.rows > rows {
+            place_by_all_rows(prior, rows);
+        }
+    }
+}
+
+/// Adds one at a time the knot whose own best variance raises the evidence of the first rows most.
+fn add_by_evidence(prior: &mut Prior, rows: usize) {
     let places = places(prior, rows);
     if places.is_empty() {
         return;
@@ -55,7 +73,7 @@ fn add_knots(prior: &mut Prior) {
         })
         .collect();
     let columns = Panels::from_columns(rows, values.iter().map(Vec::as_slice));
-    for _ in 0..MAX_KNOTS {
+    while prior.knots.len() < MAX_KNOTS {
         let kernel = prior.basis.kernel(rows, FITTED_DEGREE);
         let Some(factor) = Cholesky::new(prior.fitted_covariance(&kernel)) else { break };
         let products = columns.weighted_sums(&factor.solve(&prior.y[..rows]));
@@ -75,9 +93,6 @@ fn add_knots(prior: &mut Prior) {
         let share = libm::log((ratio - 1.0) / squares[j]) - prior.scale_of(factor);
         prior.add_knot(factor, knot, share.clamp(-10.0, 3.0));
         prior.improve(rows, ITERATIONS);
-    }
-    if prior.rows > rows && !prior.knots.is_empty() {
-        place_by_all_rows(prior, rows);
     }
 }
 
@@ -117,9 +132,10 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
     for (factor, number) in prior.knots.clone() {
         let of = &prior.basis.factors[factor];
         let (at, index) = (of.knots()[number].u, of.degree() + number + 1);
-        let few = &of.places[..rows];
-        let low = few.iter().copied().filter(|u| *u < at).fold(0.0, f64::max);
-        let high = few.iter().copied().filter(|u| *u > at).fold(1.0, f64::min);
+        let mut few = of.places[..rows].to_vec();
+        few.sort_by(f64::total_cmp);
+        let place = few.partition_point(|u| *u < at);
+        let (low, high) = (few[place.saturating_sub(NEIGHBOURS)], few[(place + NEIGHBOURS - 1).min(rows - 1)]);
         let between: Vec<f64> = of.places[..all].iter().copied().filter(|u| *u >= low && *u <= high).collect();
         let ones = vec![1.0; all];
         let (mut fixed, mut moving) = (vec![ones], Vec::new());
@@ -133,7 +149,11 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
         let mut basis = Orthonormal::new(&Panels::from_columns(all, fixed.iter().map(Vec::as_slice)));
         let panels = fixed.len().div_ceil(LANES);
         let mut best = (f64::NEG_INFINITY, at);
-        for at in middles(&between).into_iter().take(PLACES) {
+        let middles = middles(&between);
+        let every = middles.len().div_ceil(PLACES).max(1);
+        let mut tried: Vec<f64> = middles.iter().copied().step_by(every).chain([at]).collect();
+        let mut is_coarse = every > 1;
+        while let Some(at) = tried.pop() {
             prior.basis.factors[factor].move_knot(number, at);
             let columns: Vec<Vec<f64>> = moving.iter().map(|term| prior.basis.values(term, 0..all)).collect();
             basis.truncate(panels);
@@ -141,6 +161,11 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
             let explained = basis.scores(&prior.y[..all])[panels * LANES..].iter().map(|s| s * s).sum::<f64>();
             if explained > best.0 {
                 best = (explained, at);
+            }
+            if tried.is_empty() && is_coarse {
+                is_coarse = false;
+                let centre = middles.partition_point(|u| *u < best.1);
+                tried = middles[centre.saturating_sub(every)..(centre + every).min(middles.len())].to_vec();
             }
         }
         prior.basis.factors[factor].move_knot(number, best.1);
