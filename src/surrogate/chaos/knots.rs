@@ -5,6 +5,9 @@ use super::prior::{FITTED_DEGREE, Prior};
 use super::squares::Orthonormal;
 use crate::surrogate::stepped::Knot;
 
+/// Degree of the polynomials beside which knots are searched: those of high degree hide them.
+const DEGREE: usize = 3;
+
 /// Maximum number of knots.
 const MAX_KNOTS: usize = 8;
 
@@ -38,15 +41,21 @@ struct Place {
 
 /// Returns the prior with knots, if there are any.
 pub fn with_knots(prior: &Prior) -> Option<Prior> {
-    let mut prior = prior.clone();
-    add_knots(&mut prior);
-    (!prior.knots.is_empty()).then_some(prior)
+    let rows = prior.fitted_rows();
+    let mut prior = prior.clone().with_degree(DEGREE);
+    prior.improve(rows, 2 * ITERATIONS);
+    add_knots(&mut prior, rows);
+    if prior.knots.is_empty() {
+        return None;
+    }
+    let mut prior = prior.with_degree(FITTED_DEGREE);
+    prior.improve(prior.rows.min(2 * rows), 2 * LAST_ITERATIONS);
+    Some(prior)
 }
 
 /// Adds knots by the evidence of some rows, moves them to where all rows show them, and then those that appear
 /// in twice as many rows: the first ones hide them.
-fn add_knots(prior: &mut Prior) {
-    let rows = prior.fitted_rows();
+fn add_knots(prior: &mut Prior, rows: usize) {
     for rows in [rows, prior.rows.min(2 * rows)] {
         let before = prior.knots.len();
         add_by_evidence(prior, rows);
@@ -74,8 +83,7 @@ fn add_by_evidence(prior: &mut Prior, rows: usize) {
         .collect();
     let columns = Panels::from_columns(rows, values.iter().map(Vec::as_slice));
     while prior.knots.len() < MAX_KNOTS {
-        let kernel = prior.basis.kernel(rows, FITTED_DEGREE);
-        let Some(factor) = Cholesky::new(prior.fitted_covariance(&kernel)) else { break };
+        let Some(factor) = Cholesky::new(prior.fitted_covariance(rows)) else { break };
         let products = columns.weighted_sums(&factor.solve(&prior.y[..rows]));
         let squares = factor.whitened_squares(&columns);
         let mut best = (1.0, 0);

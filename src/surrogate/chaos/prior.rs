@@ -39,6 +39,8 @@ pub struct Prior {
     /// The first rows, to which coefficients are fitted.
     pub rows: usize,
     order: usize,
+    /// Degree of the polynomials by which the hyperparameters are fitted.
+    degree: usize,
     theta: Vec<f64>,
     /// The factor of each knot and its number there, in the order in which they came.
     pub knots: Vec<(usize, usize)>,
@@ -49,9 +51,9 @@ impl Prior {
     pub fn new(basis: Basis, y: Vec<f64>, order: usize) -> Self {
         let order = order.min(basis.factors.len());
         let rows = basis.rows.min(MAX_ROWS);
-        let mut prior = Self { basis, y, rows, order, theta: Vec::new(), knots: Vec::new() };
+        let mut prior = Self { basis, y, rows, order, degree: FITTED_DEGREE, theta: Vec::new(), knots: Vec::new() };
         let fitted = prior.fitted_rows();
-        let kernel = prior.basis.kernel(fitted, FITTED_DEGREE);
+        let kernel = prior.basis.kernel(fitted, prior.degree);
         prior.theta = prior.descend(&kernel, prior.start(&kernel), ITERATIONS);
         let left = prior.left_one_out(&kernel, &prior.theta);
         // All may count as noise there: once more from rough interactions.
@@ -76,7 +78,7 @@ impl Prior {
     /// Improves the hyperparameters by more rows. The noise of the first ones may be far too small, so that a line
     /// search in it comes first.
     fn refine(&mut self) {
-        let kernel = self.basis.kernel(self.rows.min(2 * self.fitted_rows()), FITTED_DEGREE);
+        let kernel = self.basis.kernel(self.rows.min(2 * self.fitted_rows()), self.degree);
         let mut best = (f64::INFINITY, self.theta.clone());
         for k in 0..6 {
             let mut theta = self.theta.clone();
@@ -171,7 +173,7 @@ impl Prior {
 
     /// Returns the mean square of the rows left out one by one.
     fn left_one_out(&self, kernel: &Kernel, theta: &[f64]) -> f64 {
-        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, FITTED_DEGREE))) else {
+        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, self.degree))) else {
             return f64::INFINITY;
         };
         let weights = factor.solve(&self.y[..kernel.rows]);
@@ -181,7 +183,7 @@ impl Prior {
 
     /// Returns the negative logarithm of the posterior of the hyperparameters.
     fn value(&self, kernel: &Kernel, theta: &[f64]) -> f64 {
-        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, FITTED_DEGREE))) else {
+        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, self.degree))) else {
             return f64::INFINITY;
         };
         let whitened = factor.forward(&self.y[..kernel.rows]);
@@ -192,7 +194,7 @@ impl Prior {
     /// Returns the same with its gradient.
     fn objective(&self, kernel: &Kernel, theta: &[f64]) -> (f64, Vec<f64>) {
         let (factors, order) = (self.basis.factors.len(), self.order);
-        let variances = self.variances(theta, FITTED_DEGREE);
+        let variances = self.variances(theta, self.degree);
         let mut gradient = vec![0.0; theta.len()];
         let Some((value, derivatives)) = kernel.likelihood(&variances, &self.y[..kernel.rows]) else {
             return (1e10, gradient);
@@ -203,7 +205,7 @@ impl Prior {
             let by_logs: Vec<f64> =
                 derivatives.functions[i].iter().zip(&variances.functions[i]).map(|(g, v)| g * v).collect();
             gradient[i] = by_logs.iter().sum();
-            let (polynomials, knots) = by_logs.split_at(self.basis.factors[i].degree().min(FITTED_DEGREE));
+            let (polynomials, knots) = by_logs.split_at(self.basis.factors[i].degree().min(self.degree));
             let own = self.knots.iter().enumerate().filter(|(_, (factor, _))| *factor == i);
             for ((m, _), by_log) in own.zip(knots) {
                 gradient[gamma + factors + m] = *by_log;
@@ -254,9 +256,9 @@ impl Prior {
         self.basis.kernel(self.rows, usize::MAX).covariance(&self.variances(&self.theta, usize::MAX))
     }
 
-    /// Returns the covariance at the rows of a `kernel` of the degree at which the hyperparameters are fitted.
-    pub fn fitted_covariance(&self, kernel: &Kernel) -> Symmetric {
-        kernel.covariance(&self.variances(&self.theta, FITTED_DEGREE))
+    /// Returns the covariance at the first rows by the polynomials to which the hyperparameters are fitted.
+    pub fn fitted_covariance(&self, rows: usize) -> Symmetric {
+        self.basis.kernel(rows, self.degree).covariance(&self.variances(&self.theta, self.degree))
     }
 
     /// Returns the logarithms of the w of `factor` and of the weight of single factors.
@@ -271,9 +273,14 @@ impl Prior {
         self.theta.push(log_share);
     }
 
+    /// Fits the hyperparameters by polynomials up to `degree` from now on.
+    pub fn with_degree(self, degree: usize) -> Self {
+        Self { degree, ..self }
+    }
+
     /// Improves the hyperparameters in some steps.
     pub fn improve(&mut self, rows: usize, iterations: usize) {
-        let kernel = self.basis.kernel(rows, FITTED_DEGREE);
+        let kernel = self.basis.kernel(rows, self.degree);
         self.theta = self.descend(&kernel, self.theta.clone(), iterations);
     }
 
