@@ -5,7 +5,7 @@ use super::prior::{FITTED_DEGREE, Prior};
 use super::squares::Orthonormal;
 use crate::surrogate::stepped::Knot;
 
-/// Degree of the polynomials beside which knots are searched: those of high degree hide them.
+/// Degree of the polynomials with which knots are searched: those of high degree hide them.
 const DEGREE: usize = 3;
 
 /// Maximum number of knots.
