@@ -13,10 +13,10 @@
 //! number is a mean over base points, so that the contributions of the points give the error.
 
 use crate::design::Design;
-use crate::surrogate::fit::values_and_rest;
-use crate::surrogate::gram::add_scaled;
+use crate::surrogate::expansion::values_and_rest;
 use crate::surrogate::net::Net;
 use crate::surrogate::{Effects, Expansion, is_interaction, touches, within};
+use apportion_base::sum::add_scaled;
 
 /// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {

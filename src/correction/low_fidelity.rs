@@ -9,9 +9,12 @@
 //!
 //! - V S_s(h) = alpha^2 V S_s(g) + sum over a within s of (b_a^2 + 2 alpha b_a r_a),
 //!
-//! and similarly for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at
-//! separate points are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid, if the
+//! and similarly for total indices and the variance. P of a net is fitted to the others, and the runs at separate
+//! points are independent of it: a poor low-fidelity model costs accuracy, but intervals stay valid, if the
 //! shared rows show how poor it is. They show nothing of values of g beyond theirs ([`IndependentOutputs::unmet_share`]).
+
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -22,15 +25,11 @@ use super::surrogate_use::LowFidelityUse;
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::{Caps, Term, add_to};
+use crate::surrogate::expansion::{degree, values_and_rest};
 use crate::surrogate::family::Family;
-use crate::surrogate::fit::Expansion;
-use crate::surrogate::fit::values_and_rest;
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
-use crate::surrogate::{
-    Effects, MAX_FITTED_ROWS, SAFE_UNBOUNDED_DEGREES, cross_fitted, expansion_without, fewest_points, takes_surrogates,
-};
+use crate::surrogate::{Effects, Expansion, FittedRows, Term, fewest_points, fitted_design, takes_surrogates};
 
 /// Part of the range of the shared rows by which other values may lie outside it: those of a few hundred draws of a
 /// normal distribution leave 4e-4 of its variance beyond.
@@ -51,14 +50,9 @@ pub(crate) struct LowFidelityOutputs<'a> {
 pub(crate) struct IndependentOutputs {
     design: Design,
     scale: Scale,
-    nets: IndependentNets,
-}
-
-enum IndependentNets {
-    /// Every net and an expansion fitted to the others.
-    Fitted(Vec<(Net, Expansion)>),
-    /// The outputs of every net, if there are too many or too few for a fit.
-    Stored(Vec<OutputTable>),
+    nets: Vec<OutputTable>,
+    /// For every net an expansion fitted to the others; empty ones for too few points.
+    expansions: Vec<Expansion>,
 }
 
 impl IndependentOutputs {
@@ -70,21 +64,18 @@ impl IndependentOutputs {
         if !takes_surrogates(design, replicates.len()) {
             return None;
         }
-        let ScaledOutput { nets: tables, scale } = ScaledOutput::new(replicates, design.runs().len(), None)?;
-        let caps = Caps::new(families, SAFE_UNBOUNDED_DEGREES);
-        let mut nets: Vec<Net> = Vec::new();
-        if design.rows() <= MAX_FITTED_ROWS {
-            let tables = tables.par_iter().enumerate();
-            nets = tables.map(|(k, table)| net(design, k, families, caps.degree, table)).collect();
-        }
-        let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
-        let nets = if is_fitted {
-            let expansions = cross_fitted(&nets, caps);
-            IndependentNets::Fitted(nets.into_iter().zip(expansions).collect())
+        let ScaledOutput { nets, scale } = ScaledOutput::new(replicates, design.runs().len(), None)?;
+        let enough = nets.iter().all(|net| net.complete_points().len() >= fewest_points(design));
+        let expansions = if enough {
+            let first = fitted_design(design).points_per_replicate() as usize;
+            let some: Vec<Net> =
+                nets.iter().enumerate().map(|(k, table)| net(design, k, 0..first, families, 0, table)).collect();
+            let outputs = some.iter().map(|net| &net.outputs[..]).collect();
+            FittedRows::new(&some, families).smooth(&[outputs]).into_iter().flatten().collect()
         } else {
-            IndependentNets::Stored(tables)
+            vec![Expansion::default(); nets.len()]
         };
-        Some(Self { design: design.clone(), scale, nets })
+        Some(Self { design: design.clone(), scale, nets, expansions })
     }
 
     /// Returns the share of the variance that the outputs owe to values far outside the range of the `shared` ones, at
@@ -95,12 +86,8 @@ impl IndependentOutputs {
         let finite = shared.filter(|y| y.is_finite());
         let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(*y), high.max(*y)));
         let room = ROOM * (high - low);
-        let nets: Vec<&[Vec<f64>]> = match &self.nets {
-            IndependentNets::Fitted(nets) => nets.iter().map(|(net, _)| &net.outputs[..]).collect(),
-            IndependentNets::Stored(tables) => tables.iter().map(|table| &table.runs[..]).collect(),
-        };
         let (mut all, mut beyond) = (0.0, 0.0);
-        for y in nets.into_iter().flatten().flatten().filter(|y| y.is_finite()) {
+        for y in self.nets.iter().flat_map(|net| &net.runs).flatten().filter(|y| y.is_finite()) {
             all += y * y;
             beyond += y * y - y.max(low - room).min(high + room).powi(2);
         }
@@ -108,9 +95,16 @@ impl IndependentOutputs {
     }
 }
 
-/// Returns net number `k` of all base points of `table`.
-fn net(design: &Design, k: usize, families: &[Family], degree: usize, table: &OutputTable) -> Net {
-    Net::new(design, k as u64, 0..table.points(), families, degree, &table.runs)
+/// Returns some base points of net number `k`.
+fn net(
+    design: &Design,
+    k: usize,
+    points: Range<usize>,
+    families: &[Family],
+    degree: usize,
+    table: &OutputTable,
+) -> Net {
+    Net::new(design, k as u64, points.start..points.end.min(table.points()), families, degree, &table.runs)
 }
 
 /// The runs of one net by both models.
@@ -119,11 +113,11 @@ struct TwoModels {
     cheap: Net,
 }
 
-/// An approximation of the expensive model on one net: slope and constant of the other, expansion of the rest.
+/// An approximation of the expensive model: slope and constant of the other, and for every net an expansion of the rest.
 struct Approximation {
     slope: f64,
     offset: f64,
-    rest: Expansion,
+    rests: Vec<Expansion>,
 }
 
 /// Estimates the indices of `layout` from the outputs of every run of `design`, with `low` as a control variate; `None`
@@ -142,32 +136,32 @@ pub(crate) fn low_fidelity_estimates(
     let mut f = ScaledOutput::new(replicates, runs, None)?;
     let g = ScaledOutput::new(&low.shared, runs, Some(low.independent.scale))?;
     leave_out_points_that_failed(&mut f.nets, &g.nets);
-    let caps = Caps::new(families, SAFE_UNBOUNDED_DEGREES);
-    let numbers = (0..f.nets.len()).into_par_iter();
-    let nets = numbers.map(|k| {
-        let expensive = net(design, k, families, caps.degree, &f.nets[k]);
-        let complete = f.nets[k].complete_points();
-        let cheap = expensive.with_outputs(g.nets[k].at(&complete).runs);
-        TwoModels { expensive, cheap }
-    });
-    let nets: Vec<TwoModels> = nets.collect();
+    let two_models = |degree: usize| -> Vec<TwoModels> {
+        let numbers = (0..f.nets.len()).into_par_iter();
+        let nets = numbers.map(|k| {
+            let table = &f.nets[k];
+            let expensive = net(design, k, 0..table.points(), families, degree, table);
+            let cheap = expensive.with_outputs(g.nets[k].at(&table.complete_points()).runs);
+            TwoModels { expensive, cheap }
+        });
+        nets.collect()
+    };
+    let nets = two_models(0);
     if nets.iter().any(|net| net.expensive.points() < fewest_points(design)) {
         return None;
     }
     let effects = Effects::new(design, layout);
-    let numbers = (0..nets.len()).into_par_iter();
-    let approximations: Vec<Approximation> = numbers.map(|k| Approximation::new(&nets, k, caps)).collect();
-    let pairs = nets.par_iter().zip(&approximations);
-    let contributions: Vec<Contributions> = pairs.map(|(net, of)| differences(design, net, of, &effects)).collect();
-    let of_low = independent_contributions(low.independent, families, &approximations, &effects);
-    let slope = approximations.iter().map(|of| of.slope).sum::<f64>() / approximations.len() as f64;
+    let approximation = Approximation::new(&nets, families);
+    let nets = two_models(degree(&approximation.rests));
+    let pairs = nets.par_iter().zip(&approximation.rests);
+    let contributions = pairs.map(|(net, rest)| differences(design, net, &approximation, rest, &effects)).collect();
+    let of_low = independent_contributions(low.independent, families, &approximation, &effects);
     let low = LowFidelityUse {
         name: low.name.to_owned(),
-        slope: slope * (f.scale.sd / low.independent.scale.sd),
-        explained: 1.0 - unexplained(&nets, &approximations),
+        slope: approximation.slope * (f.scale.sd / low.independent.scale.sd),
+        explained: 1.0 - approximation.unexplained(&nets),
     };
-    let expansions = approximations.into_iter().map(|of| of.rest).collect();
-    let corrected = Corrected::new(design, contributions, expansions, families, &effects);
+    let corrected = Corrected::new(design, contributions, approximation.rests, families, &effects);
     Some(SurrogateEstimates { low: Some(low), ..estimates(&corrected, &of_low, f.scale) })
 }
 
@@ -183,20 +177,19 @@ fn leave_out_points_that_failed(f: &mut [OutputTable], g: &[OutputTable]) {
 }
 
 impl Approximation {
-    /// Fits to all nets except number `k`.
-    fn new(nets: &[TwoModels], k: usize, caps: Caps<'_>) -> Self {
-        let (mut f, mut g) = (Vec::new(), Vec::new());
-        for (_, net) in nets.iter().enumerate().filter(|(place, _)| *place != k) {
-            f.extend(net.expensive.outputs.iter().flatten().copied());
-            g.extend(net.cheap.outputs.iter().flatten().copied());
-        }
+    /// Fits the slope to all nets, and to what it leaves of all nets but one an expansion.
+    fn new(nets: &[TwoModels], families: &[Family]) -> Self {
+        let f: Vec<f64> = nets.iter().flat_map(|net| &net.expensive.outputs).flatten().copied().collect();
+        let g: Vec<f64> = nets.iter().flat_map(|net| &net.cheap.outputs).flatten().copied().collect();
         let (mean_f, mean_g) = (apportion_base::sum::mean(&f), apportion_base::sum::mean(&g));
         let square: f64 = g.iter().map(|g| (g - mean_g).powi(2)).sum();
         let product: f64 = f.iter().zip(&g).map(|(f, g)| (f - mean_f) * (g - mean_g)).sum();
         let slope = if square > 0.0 { product / square } else { 0.0 };
-        let line = Self { slope, offset: mean_f - slope * mean_g, rest: Expansion::default() };
+        let line = Self { slope, offset: mean_f - slope * mean_g, rests: Vec::new() };
         let left: Vec<Net> = nets.iter().map(|net| net.expensive.with_outputs(line.rest_of(net))).collect();
-        Self { rest: expansion_without(&left, k, caps), ..line }
+        let outputs = left.iter().map(|net| &net.outputs[..]).collect();
+        let rests = FittedRows::new(&left, families).smooth(&[outputs]).into_iter().flatten().collect();
+        Self { rests, ..line }
     }
 
     /// Returns f - alpha g - offset at every run and point.
@@ -207,17 +200,31 @@ impl Approximation {
         }
         rest
     }
-}
 
-/// Returns the share of the variance of the expensive model, which is 1, that the low-fidelity model alone leaves.
-fn unexplained(nets: &[TwoModels], approximations: &[Approximation]) -> f64 {
-    let of_nets = nets.iter().zip(approximations).map(|(net, of)| mean_power(&of.rest_of(net), 2));
-    of_nets.sum::<f64>() / nets.len() as f64
+    /// Returns the share of the variance of the expensive model, which is 1, that the low-fidelity model alone leaves.
+    fn unexplained(&self, nets: &[TwoModels]) -> f64 {
+        nets.iter().map(|net| mean_power(&self.rest_of(net), 2)).sum::<f64>() / nets.len() as f64
+    }
+
+    /// Returns the mean over all nets of 2 alpha b_a of every term.
+    fn crossed(&self) -> BTreeMap<&Term, f64> {
+        let mut crossed: BTreeMap<&Term, f64> = BTreeMap::new();
+        for (term, b) in self.rests.iter().flat_map(Expansion::varying) {
+            *crossed.entry(term).or_default() += 2.0 * self.slope * b / self.rests.len() as f64;
+        }
+        crossed
+    }
 }
 
 /// Returns the contributions of every base point of a net to Q(f) - Q(h), and the exact part of Q(h).
-fn differences(design: &Design, net: &TwoModels, approximation: &Approximation, effects: &Effects) -> Contributions {
-    let Approximation { offset, rest: expansion, .. } = approximation;
+fn differences(
+    design: &Design,
+    net: &TwoModels,
+    approximation: &Approximation,
+    expansion: &Expansion,
+    effects: &Effects,
+) -> Contributions {
+    let offset = approximation.offset;
     let left = net.expensive.with_outputs(approximation.rest_of(net));
     let (_, e) = values_and_rest(&left, expansion);
     let f = &net.expensive.outputs;
@@ -266,78 +273,52 @@ fn half_square(y: &[Vec<f64>], ab: usize, p: usize) -> f64 {
     (y[0][p] - y[ab][p]).powi(2) / 2.0
 }
 
-/// What Q(h) has of the low-fidelity model, the mean over all approximations.
-struct MeanApproximation<'a> {
-    slope: f64,
-    square_of_slope: f64,
-    /// 2 alpha b_a of every term.
-    crossed: Vec<(&'a Term, f64)>,
-}
-
-impl<'a> MeanApproximation<'a> {
-    fn new(approximations: &'a [Approximation]) -> Self {
-        let count = approximations.len() as f64;
-        let mut crossed: Vec<(&Term, f64)> = Vec::new();
-        for of in approximations {
-            for (term, b) in of.rest.varying() {
-                add_to(&mut crossed, term, 2.0 * of.slope * b / count);
-            }
-        }
-        Self {
-            slope: approximations.iter().map(|of| of.slope).sum::<f64>() / count,
-            square_of_slope: approximations.iter().map(|of| of.slope * of.slope).sum::<f64>() / count,
-            crossed,
-        }
-    }
-
-    /// Returns the contributions of the points of `net`, which `expansion` of other nets corrects, to Q(h).
-    fn contributions(&self, design: &Design, net: &Net, expansion: &Expansion, effects: &Effects) -> Contributions {
-        let mut all = Contributions::new(design, net, expansion, effects);
-        all.scale(self.square_of_slope);
-        let (values, e) = values_and_rest(net, expansion);
-        let runs = net.runs() as f64;
-        for (p, mean) in all.mean.iter_mut().enumerate() {
-            *mean = self.slope * (0..net.runs()).map(|run| values[run][p] + e[run][p]).sum::<f64>() / runs;
-        }
-        let mut column = Vec::new();
-        for (term, weight) in &self.crossed {
-            let coefficient = expansion.iter().find(|(of, _)| of == term).map_or(0.0, |(_, b)| b);
-            let mut means = vec![coefficient; net.points()];
-            for (run, e) in e.iter().enumerate() {
-                net.fill(term, run, &mut column);
-                for ((sum, phi), e) in means.iter_mut().zip(&column).zip(e) {
-                    *sum += phi * e / runs;
-                }
-            }
-            all.add_term(effects, term, [&|p| weight * means[p]; 2]);
-        }
-        all
-    }
-}
-
 /// Returns the contributions of the independent base points of the low-fidelity model to Q(h).
 fn independent_contributions(
-    IndependentOutputs { design, nets, .. }: &IndependentOutputs,
+    IndependentOutputs { design, nets, expansions, .. }: &IndependentOutputs,
     families: &[Family],
-    approximations: &[Approximation],
+    approximation: &Approximation,
     effects: &Effects,
 ) -> Vec<Contributions> {
-    let mean = MeanApproximation::new(approximations);
-    let tables = match nets {
-        IndependentNets::Fitted(nets) => {
-            let nets = nets.par_iter();
-            return nets.map(|(net, expansion)| mean.contributions(design, net, expansion, effects)).collect();
-        }
-        IndependentNets::Stored(tables) => tables.par_iter().enumerate(),
-    };
-    let degrees = mean.crossed.iter().flat_map(|(term, _)| term.iter().map(|(_, degree)| *degree));
-    let degree = degrees.max().unwrap_or(1);
-    let zero = Expansion { terms: vec![Vec::new()], coefficients: vec![0.0] };
-    let nets = tables.map(|(k, table)| {
+    let (slope, crossed) = (approximation.slope, approximation.crossed());
+    let degree = degree(approximation.rests.iter().chain(expansions));
+    let pairs = nets.par_iter().zip(expansions).enumerate();
+    let all = pairs.map(|(k, (table, expansion))| {
         in_chunks(table.points(), |points| {
-            let net = Net::new(design, k as u64, points, families, degree, &table.runs);
-            mean.contributions(design, &net, &zero, effects)
+            let net = net(design, k, points, families, degree, table);
+            let mut all = Contributions::new(design, &net, expansion, effects);
+            all.scale(slope * slope);
+            add_crossed(&mut all, &net, expansion, slope, &crossed, effects);
+            all
         })
     });
-    nets.collect()
+    all.collect()
+}
+
+/// Adds the part linear in the slope: the mean of the output, and the products of the terms with it.
+fn add_crossed(
+    all: &mut Contributions,
+    net: &Net,
+    expansion: &Expansion,
+    slope: f64,
+    crossed: &BTreeMap<&Term, f64>,
+    effects: &Effects,
+) {
+    let (values, e) = values_and_rest(net, expansion);
+    let runs = net.runs() as f64;
+    for (p, mean) in all.mean.iter_mut().enumerate() {
+        *mean = slope * (0..net.runs()).map(|run| values[run][p] + e[run][p]).sum::<f64>() / runs;
+    }
+    let own: BTreeMap<&Term, f64> = expansion.iter().collect();
+    let mut column = Vec::new();
+    for (term, weight) in crossed {
+        let mut means = vec![own.get(term).copied().unwrap_or(0.0); net.points()];
+        for (run, e) in e.iter().enumerate() {
+            net.fill(term, run, &mut column);
+            for ((sum, phi), e) in means.iter_mut().zip(&column).zip(e) {
+                *sum += phi * e / runs;
+            }
+        }
+        all.add_term(effects, term, [&|p| weight * means[p]; 2]);
+    }
 }

@@ -1,6 +1,5 @@
-//! Surrogates of many outputs of one run. Neighbours whose runs failed at the same points share the polynomials of the
-//! points and the terms, which are chosen for all of them; each output has separate coefficients, and a number
-//! of terms by cross-validation over the nets. A thousand outputs then cost about fifty times as much as one.
+//! Surrogates of the outputs of one run: of each output alone, or of many, whose runs failed at the same points, by the
+//! directions in which they differ.
 
 use std::collections::BTreeMap;
 
@@ -12,21 +11,16 @@ use super::nets::{Corrected, estimates, in_chunks};
 use crate::design::Design;
 use crate::effect::Layout;
 use crate::estimate::PointOutputs;
-use crate::surrogate::basis::Caps;
+use crate::surrogate::expansion::degree;
 use crate::surrogate::family::Family;
-use crate::surrogate::fit::{Expansion, Training};
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    CrossFitted, Effects, Trial, fewest_points, fitted_by_chaos, fitted_design, fitted_to_others, takes_surrogates,
-    trials,
+    CrossFitted, Effects, Expansion, FittedRows, choices, fewest_points, fitted_design, takes_surrogates,
 };
 
-/// Maximum number of outputs that are fitted one by one: separate terms gain more than they cost.
+/// Maximum number of outputs that are fitted one by one, with steps and kinks.
 const MAX_ALONE: usize = 32;
-
-/// Approximate number of neighbours that share their terms. Outputs of a series change slowly along it.
-const NEIGHBOURS: usize = 64;
 
 /// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates: those that are
 /// `known` if there are any; `None` if there are too few nets or points, the points are not Sobol' nets, or an output
@@ -55,9 +49,9 @@ pub(crate) fn surrogates_together(
     outputs: &[Vec<&PointOutputs>],
     known: &[Option<&CrossFitted>],
 ) -> Vec<Option<SurrogateEstimates>> {
-    let alone = |number: usize| surrogate_estimates(design, families, layout, &outputs[number], known[number]);
-    if outputs.len() <= MAX_ALONE || !takes_surrogates(design, outputs[0].len()) {
-        return (0..outputs.len()).into_par_iter().map(alone).collect();
+    if outputs.len() <= MAX_ALONE || known.iter().any(Option::is_some) || !takes_surrogates(design, outputs[0].len()) {
+        let alone = outputs.par_iter().zip(known);
+        return alone.map(|(of, known)| surrogate_estimates(design, families, layout, of, *known)).collect();
     }
     let runs = design.runs().len();
     let scaled: Vec<Option<ScaledOutput>> =
@@ -71,25 +65,15 @@ pub(crate) fn surrogates_together(
     }
     let mut all: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
     for (complete, members) in groups {
-        // Lists of nearly equal length.
-        let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
-        for members in members.chunks(length) {
-            let (numbers, scaled): (Vec<usize>, Vec<&ScaledOutput>) = members.iter().copied().unzip();
-            let estimates: Vec<Option<SurrogateEstimates>> = if members.len() <= MAX_ALONE {
-                numbers.par_iter().map(|number| alone(*number)).collect()
-            } else {
-                fit_outputs(design, families, layout, &complete, &scaled, None)
-            };
-            for (number, estimates) in numbers.into_iter().zip(estimates) {
-                all[number] = estimates;
-            }
-        }
+        let (numbers, scaled): (Vec<usize>, Vec<&ScaledOutput>) = members.into_iter().unzip();
+        let estimates = fit_outputs(design, families, layout, &complete, &scaled, None);
+        numbers.into_iter().zip(estimates).for_each(|(number, of)| all[number] = of);
     }
     all
 }
 
-/// Fits `outputs` with values at the `complete` points of every replicate, with terms chosen together, unless the
-/// surrogates of the only one are `known`.
+/// Fits `outputs` with values at the `complete` points of every replicate together, unless the surrogates of the only
+/// one are `known`.
 pub(super) fn fit_outputs(
     design: &Design,
     families: &[Family],
@@ -123,9 +107,8 @@ struct Together<'a> {
     complete: Vec<ScaledOutput>,
 }
 
-/// A trial fitted to all outputs.
+/// All outputs fitted in some polynomials.
 struct Fit {
-    ratio: f64,
     families: Vec<Family>,
     degree: usize,
     nets: Vec<Net>,
@@ -134,53 +117,32 @@ struct Fit {
 }
 
 impl Together<'_> {
-    /// Fits all trials.
+    /// Fits all polynomials that come into question.
     fn fit_trials(&self) -> Vec<Fit> {
-        let trials = trials(self.families);
-        if self.outputs.len() > 1 {
-            return trials.into_iter().map(|trial| self.fit(trial)).collect();
+        choices(self.families).into_iter().map(|families| self.fit(families)).collect()
+    }
+
+    /// Fits all outputs in polynomials of `families`.
+    fn fit(&self, families: Vec<Family>) -> Fit {
+        let nets: Vec<Net> = (0..self.outputs[0].nets.len()).map(|k| self.net(k, &families, 0)).collect();
+        let rows = FittedRows::new(&nets, &families);
+        let outputs = self.complete.iter().map(|output| output.nets.iter().map(|net| &net.runs[..]).collect());
+        let outputs: Vec<Vec<&[Vec<f64>]>> = outputs.collect();
+        match &outputs[..] {
+            [nets] => self.known(&rows.fitted(nets, self.outputs[0].scale)),
+            all => self.with_nets(families, rows.smooth(all)),
         }
-        let mut families: Vec<Vec<Family>> = Vec::new();
-        for trial in trials {
-            if !families.contains(&trial.families) {
-                families.push(trial.families);
-            }
-        }
-        families.into_iter().map(|families| self.known(&self.fit_alone(&families))).collect()
     }
 
     /// Returns the fit with surrogates of the only output.
     fn known(&self, CrossFitted { families, of_nets, .. }: &CrossFitted) -> Fit {
-        let degree = of_nets.iter().flat_map(|of| &of.terms).flatten().map(|(_, degree)| *degree).max().unwrap_or(0);
-        let numbers = (0..of_nets.len()).into_par_iter();
-        Fit {
-            ratio: 1.0,
-            families: families.clone(),
-            degree,
-            nets: numbers.map(|k| self.net(k, families, degree)).collect(),
-            expansions: of_nets.iter().map(|of_net| vec![of_net.clone()]).collect(),
-        }
+        self.with_nets(families.clone(), of_nets.iter().map(|of_net| vec![of_net.clone()]).collect())
     }
 
-    /// Fits the only output by Bayesian chaos in these polynomials.
-    fn fit_alone(&self, families: &[Family]) -> CrossFitted {
-        let numbers = 0..self.outputs[0].nets.len();
-        let nets: Vec<Net> = numbers.map(|k| self.net(k, families, 0)).collect();
-        fitted_by_chaos(&nets, families, self.outputs[0].scale)
-    }
-
-    /// Fits one trial to all outputs.
-    fn fit(&self, trial: Trial) -> Fit {
-        let Trial { families, unbounded_degree, ratio } = trial;
-        let caps = Caps::new(&families, unbounded_degree);
-        let numbers = (0..self.outputs[0].nets.len()).into_par_iter();
-        let degree = caps.degree;
-        let nets: Vec<Net> = numbers.map(|k| self.net(k, &families, degree)).collect();
-        let training = nets.iter().enumerate().map(|(k, net)| {
-            Training::of_outputs(net, self.complete.iter().map(|output| output.nets[k].runs.as_slice()).collect())
-        });
-        let expansions = fitted_to_others(&nets, &training.collect::<Vec<_>>(), caps);
-        Fit { ratio, families, degree, nets, expansions }
+    fn with_nets(&self, families: Vec<Family>, expansions: Vec<Vec<Expansion>>) -> Fit {
+        let degree = degree(expansions.iter().flatten());
+        let numbers = (0..expansions.len()).into_par_iter();
+        Fit { nets: numbers.map(|k| self.net(k, &families, degree)).collect(), families, degree, expansions }
     }
 
     /// Returns net number `k` with the first output, in polynomials of `families`.
@@ -194,17 +156,15 @@ impl Together<'_> {
         let mut best: Option<(&Fit, Corrected)> = None;
         for fit in fits {
             let next = self.corrected(fit, output);
-            if best.as_ref().is_none_or(|(_, best)| next.unknown() < fit.ratio * best.unknown()) {
+            if best.as_ref().is_none_or(|(_, best)| next.unknown() < best.unknown()) {
                 best = Some((fit, next));
             }
         }
         let (fit, best) = best?;
-        let mut all = estimates(&best, &[], self.outputs[output].scale);
-        if self.outputs.len() == 1 {
-            let (scale, families) = (self.outputs[output].scale, fit.families.clone());
-            all.fitted = Some(CrossFitted { scale, families, of_nets: best.expansions });
-        }
-        Some(all)
+        let scale = self.outputs[output].scale;
+        let all = estimates(&best, &[], scale);
+        let fitted = CrossFitted { scale, families: fit.families.clone(), of_nets: best.expansions };
+        Some(SurrogateEstimates { fitted: Some(fitted), ..all })
     }
 
     /// Corrects every net of one output by the expansion that was fitted to the others.

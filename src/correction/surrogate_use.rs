@@ -29,7 +29,7 @@ pub struct LowFidelityUse {
     pub name: String,
     /// Regression slope of the output of the expensive model on that of the low-fidelity model, by least squares.
     pub slope: f64,
-    /// Share of the variance explained by the low-fidelity model alone, over runs not used to fit its slope.
+    /// Share of the variance explained by the low-fidelity model alone, with its slope.
     pub explained: f64,
 }
 

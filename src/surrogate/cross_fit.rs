@@ -2,19 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::basis::{Caps, Term, first_terms};
-use super::chaos::{CrossFits, Factor, degree_at};
+use super::chaos::{CrossFits, Factor, degree_at, expansions_together};
+use super::expansion::Expansion;
 use super::family::Family;
-use super::fit::{Expansion, NetSums, Training, fit, selection_rows, without};
-use super::identifiable::IdentifiableTerms;
 use super::net::Net;
 use super::outputs::Scale;
-
-/// Returns for every net the expansion fitted to the others.
-pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
-    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_to_others(nets, &training, caps).into_iter().flatten().collect()
-}
 
 /// The surrogates of all nets.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,20 +22,47 @@ pub struct CrossFitted {
 /// Maximum number of rows to which Bayesian chaos is fitted: the others correct its error.
 const ROWS: usize = 1 << 11;
 
-/// Returns for every net the expansion of its output, in units of `scale`, fitted to the others by Bayesian chaos, in
-/// polynomials of `families`, with steps and kinks.
-pub(crate) fn fitted_by_chaos(nets: &[Net], families: &[Family], scale: Scale) -> CrossFitted {
-    let rows = rows_of_nets(nets);
-    let y: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].outputs[run][point]).collect();
-    let degree = degree_at(rows.len());
-    let factors = families.par_iter().enumerate().map(|(factor, family)| {
-        let u: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].quantiles(run, factor)[point]).collect();
-        Factor::new(family, &u, degree)
-    });
-    let fits = CrossFits::new(factors.collect(), y, rows.iter().map(|(k, ..)| *k).collect());
-    let families = fits.families();
-    let of_nets = fits.expansions(&families);
-    CrossFitted { scale, families, of_nets }
+/// The rows of nets to which expansions are fitted.
+pub(crate) struct FittedRows {
+    /// The net, the run and the base point of each.
+    rows: Vec<(usize, usize, usize)>,
+    factors: Vec<Factor>,
+}
+
+impl FittedRows {
+    /// Chooses some rows of `nets`, of factors with polynomials of `families`.
+    pub fn new(nets: &[Net], families: &[Family]) -> Self {
+        let rows = rows_of_nets(nets);
+        let degree = degree_at(rows.len());
+        let factors = families.par_iter().enumerate().map(|(factor, family)| {
+            let u: Vec<f64> = rows.iter().map(|&(k, run, point)| nets[k].quantiles(run, factor)[point]).collect();
+            Factor::new(family, &u, degree)
+        });
+        Self { factors: factors.collect(), rows }
+    }
+
+    /// Returns for every net the expansion of an output in units of `scale`, a column of `nets` for each run, fitted to
+    /// the others by Bayesian chaos, with steps and kinks.
+    pub fn fitted(&self, nets: &[&[Vec<f64>]], scale: Scale) -> CrossFitted {
+        let fits = CrossFits::new(self.factors.clone(), self.at_rows(nets), self.parts());
+        let families = fits.families();
+        let of_nets = fits.expansions(&families);
+        CrossFitted { scale, families, of_nets }
+    }
+
+    /// Returns for every net the expansion of each of `outputs` by the polynomials alone, in the same terms.
+    pub fn smooth(&self, outputs: &[Vec<&[Vec<f64>]>]) -> Vec<Vec<Expansion>> {
+        let outputs = outputs.par_iter().map(|nets| self.at_rows(nets)).collect();
+        expansions_together(&self.factors, outputs, &self.parts())
+    }
+
+    fn at_rows(&self, nets: &[&[Vec<f64>]]) -> Vec<f64> {
+        self.rows.iter().map(|&(k, run, point)| nets[k][run][point]).collect()
+    }
+
+    fn parts(&self) -> Vec<usize> {
+        self.rows.iter().map(|(k, ..)| *k).collect()
+    }
 }
 
 /// Returns the first rows (net, run, base point) of all nets in turn: those of A and of B, which tell most, then one of the
@@ -56,33 +75,4 @@ fn rows_of_nets(nets: &[Net]) -> Vec<(usize, usize, usize)> {
     let swapped = (0..others).flat_map(|turn| (0..points).map(move |point| (2 + (point + turn) % others, point)));
     let rows = plain.chain(swapped).flat_map(|(run, point)| (0..nets.len()).map(move |k| (k, run, point)));
     rows.filter(|&(k, run, point)| run < nets[k].runs() && point < nets[k].points()).take(ROWS).collect()
-}
-
-/// Returns for every net the expansions of all outputs fitted to the `training` runs of the others.
-pub(crate) fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Vec<Expansion>> {
-    let identifiable = IdentifiableTerms::new(nets, caps);
-    let (candidates, rows) = (first_round(nets, &identifiable), selection_rows(nets.len() - 1));
-    let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let fits = (0..nets.len()).into_par_iter();
-    let fits = fits.map(|k| fit(&without(training, k), &candidates, &without(&sums, k), &identifiable));
-    fits.collect()
-}
-
-/// Returns the expansion fitted to all nets except number `k`.
-pub(crate) fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
-    let identifiable = IdentifiableTerms::new(nets, caps);
-    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    let (others, rows, candidates) =
-        (without(&training, k), selection_rows(nets.len() - 1), first_round(nets, &identifiable));
-    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    fit(&others, &candidates, &sums.iter().collect::<Vec<_>>(), &identifiable).swap_remove(0)
-}
-
-/// Returns the candidates of the first round.
-fn first_round(nets: &[Net], identifiable: &IdentifiableTerms<'_>) -> Vec<Term> {
-    let training = nets.len() - 1;
-    let rows = selection_rows(training);
-    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    let caps = identifiable.caps;
-    identifiable.retain(first_terms(caps, caps.terms.min(20.max(2 * all_rows))))
 }

@@ -12,10 +12,9 @@
 
 use std::collections::BTreeMap;
 
-use super::basis::Term;
+use super::expansion::Expansion;
 use super::family::{Family, polynomials, upper_polynomials};
-use super::fit::Expansion;
-use super::terms::{Effects, is_interaction, touches, within};
+use super::terms::{Effects, Term, is_interaction, touches, within};
 
 /// Width of the panels of the midpoint rule in ln u, and their number, down to 1e-17 of the edge.
 const STEP: f64 = 0.25;

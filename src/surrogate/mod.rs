@@ -1,14 +1,11 @@
-//! Surrogates: sparse polynomial chaos expansions, fitted to the runs of all nets but one.
+//! Surrogates: expansions by Bayesian chaos, fitted to the runs of all nets but one.
 
-pub(crate) mod basis;
 pub(crate) mod chaos;
 mod choice;
 mod cross_fit;
+pub(crate) mod expansion;
 pub(crate) mod extrapolation;
 pub(crate) mod family;
-pub(crate) mod fit;
-pub(crate) mod gram;
-mod identifiable;
 pub(crate) mod net;
 mod orthogonal;
 pub(crate) mod outputs;
@@ -16,12 +13,12 @@ pub(crate) mod stepped;
 mod terms;
 
 pub use choice::SurrogateChoice;
-pub use cross_fit::{CrossFitted, cross_fitted};
-pub(crate) use cross_fit::{expansion_without, fitted_by_chaos, fitted_to_others};
+pub use cross_fit::CrossFitted;
+pub(crate) use cross_fit::FittedRows;
+pub use expansion::Expansion;
 pub use family::Family;
-pub use fit::Expansion;
 pub(crate) use terms::{Effects, is_interaction, leading_terms, touches, within};
-pub use terms::{NamedTerm, SurrogateTerm};
+pub use terms::{NamedTerm, SurrogateTerm, Term};
 
 use crate::design::{Design, Sampler};
 use crate::space::Space;
@@ -34,16 +31,6 @@ const MIN_POINTS: usize = 4;
 
 /// The same if each has plain rows, which are more informative than rows of a base point that share their columns.
 const MIN_POINTS_WITH_PLAIN_ROWS: usize = 2;
-
-/// Maximum sum of degrees of polynomials without bounds in a term. Those of high degree are large where there are hardly any
-/// rows: few rows determine their coefficients, and no row shows their behaviour beyond.
-pub(crate) const SAFE_UNBOUNDED_DEGREES: usize = 4;
-
-/// The same if this reduces the residuals of the other runs clearly, as for powers and exponentials.
-pub(crate) const MAX_UNBOUNDED_DEGREES: usize = 10;
-
-/// The ratio that counts as clearly less.
-const CLEARLY_LESS: f64 = 0.25;
 
 /// Maximum number of rows of all nets together to which surrogates are fitted: more hardly change the coefficients of
 /// about a hundred terms, and the residuals of an expansion are computed from all rows.
@@ -64,27 +51,17 @@ pub(crate) fn fewest_points(design: &Design) -> usize {
     if design.plain_rows() > 0 { MIN_POINTS_WITH_PLAIN_ROWS } else { MIN_POINTS }
 }
 
-/// A set of polynomials to try.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Trial {
-    /// The polynomials of every factor.
-    pub families: Vec<Family>,
-    /// Maximum sum of degrees of polynomials without bounds in a term.
-    pub unbounded_degree: usize,
-    /// Maximum ratio of its residual to that of the best previous trial for which it is preferred.
-    pub ratio: f64,
-}
-
-/// Returns the trials for factors with the polynomials `families`, in order.
-pub(crate) fn trials(families: &[Family]) -> Vec<Trial> {
-    let safe = Trial { families: families.to_vec(), unbounded_degree: SAFE_UNBOUNDED_DEGREES, ratio: 1.0 };
-    if !families.iter().any(Family::is_unbounded) {
-        return vec![safe];
+/// Returns the polynomials to try for factors with those of `families`, in order: in the values of factors without bounds,
+/// in their quantiles, and in their normal quantiles.
+pub(crate) fn choices(families: &[Family]) -> Vec<Vec<Family>> {
+    let mut all = vec![families.to_vec()];
+    for by in [Family::Legendre, Family::Hermite] {
+        let others = families.iter().map(|own| own.replaced(by.clone())).collect();
+        if !all.contains(&others) {
+            all.push(others);
+        }
     }
-    let [bounded, scores] = [Family::Legendre, Family::Hermite]
-        .map(|by| Trial { families: families.iter().map(|own| own.replaced(by.clone())).collect(), ..safe.clone() });
-    let steep = Trial { unbounded_degree: MAX_UNBOUNDED_DEGREES, ratio: CLEARLY_LESS, ..scores.clone() };
-    if scores == safe { vec![safe, bounded, steep] } else { vec![safe, bounded, scores, steep] }
+    all
 }
 
 /// Returns the first base points of `design` with at most [`MAX_FITTED_ROWS`] rows: a power of two, or all.

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::basis::Term;
 use super::family::{Family, polynomials};
+use super::terms::Term;
 use crate::design::Design;
 
 /// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a
@@ -21,17 +21,9 @@ struct NetRows {
     columns: Vec<Vec<Vec<f64>>>,
     /// For each factor of each matrix the quantiles.
     quantiles: Vec<Vec<f64>>,
-    factors: usize,
     /// For each run and factor the index of its column.
     places: Vec<Vec<usize>>,
     points: usize,
-}
-
-/// The mean and the mean square of a polynomial over some rows.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Spread {
-    pub mean: f64,
-    pub square: f64,
 }
 
 impl Net {
@@ -56,7 +48,7 @@ impl Net {
             quantiles.iter().enumerate().map(|(k, u)| polynomials(&families[k % factors], u, degree)).collect();
         let places = design.runs().iter().map(|run| (0..factors).map(|f| design.column(run, f)).collect()).collect();
         Self {
-            rows: Arc::new(NetRows { columns, quantiles, factors, places, points: complete.len() }),
+            rows: Arc::new(NetRows { columns, quantiles, places, points: complete.len() }),
             outputs: outputs.iter().map(|run| complete.iter().map(|&p| run[p]).collect()).collect(),
         }
     }
@@ -66,7 +58,7 @@ impl Net {
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
         let places = vec![(0..factors).collect()];
-        let rows = NetRows { columns, quantiles: Vec::new(), factors, places, points };
+        let rows = NetRows { columns, quantiles: Vec::new(), places, points };
         Self { rows: Arc::new(rows), outputs: vec![outputs] }
     }
 
@@ -95,18 +87,6 @@ impl Net {
         &self.rows.quantiles[self.rows.places[run][factor]]
     }
 
-    /// Returns the spread of the polynomial of each degree of `factor` over the columns of all matrices.
-    pub fn spreads(&self, factor: usize) -> Vec<Spread> {
-        let count = (self.rows.columns.len() / self.rows.factors * self.rows.points).max(1) as f64;
-        let degrees = 0..self.rows.columns[factor].len();
-        let of_degree = degrees.map(|degree| {
-            let columns = self.rows.columns.iter().skip(factor).step_by(self.rows.factors);
-            let values = columns.flat_map(|of_matrix| &of_matrix[degree]);
-            Spread { mean: values.clone().sum::<f64>() / count, square: values.map(|x| x * x).sum::<f64>() / count }
-        });
-        of_degree.collect()
-    }
-
     /// Writes the values of `term` at every base point of `run` to `values`.
     pub fn fill(&self, term: &Term, run: usize, values: &mut Vec<f64>) {
         values.clear();
@@ -121,37 +101,5 @@ impl Net {
                 *value *= p;
             }
         }
-    }
-
-    /// Returns at most `most` rows (run, base point) in the order of the runs: one at a pseudo-random place in each of
-    /// as many equal stretches. Points at equal distances near a power of two are not a net, and miss rare levels.
-    pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
-        let all = self.rows.points * self.runs();
-        let count = all.min(most);
-        let rows = (0..count).map(|k| {
-            let (first, next) = (k * all / count, (k + 1) * all / count);
-            // The fractional part of a multiple of the golden ratio, in 32 bits.
-            let within = (k as u32).wrapping_mul(0x9e37_79b9);
-            let row = first + (((next - first) * (within >> 16) as usize) >> 16);
-            (row / self.rows.points, row % self.rows.points)
-        });
-        rows.collect()
-    }
-
-    /// Returns the values of `term` at some rows, in the order of the runs.
-    pub fn at(&self, term: &Term, rows: &[(usize, usize)]) -> Vec<f64> {
-        let mut values = vec![1.0; rows.len()];
-        let mut rest = &mut values[..];
-        for rows in rows.chunk_by(|a, b| a.0 == b.0) {
-            let (of_run, after) = rest.split_at_mut(rows.len());
-            for (factor, degree) in term {
-                let column = self.column(rows[0].0, *factor, *degree);
-                for (value, (_, point)) in of_run.iter_mut().zip(rows) {
-                    *value *= column[*point];
-                }
-            }
-            rest = after;
-        }
-        values
     }
 }

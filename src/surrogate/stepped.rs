@@ -2,8 +2,8 @@
 //! them is a sum of few of the functions then.
 
 use super::family::{Family, polynomials};
-use super::gram::{Square, add_scaled, lower_factor};
 use super::orthogonal::rule;
+use apportion_base::sum::{add_scaled, product};
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
 const PANELS: i32 = 50;
@@ -68,9 +68,7 @@ impl Stepped {
         for column in &mut columns {
             column.iter_mut().zip(&weights).for_each(|(value, weight)| *value *= weight.sqrt());
         }
-        let mut gram = Square::zeros(columns.len());
-        gram.add_products(&columns);
-        Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&gram) }
+        Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&columns) }
     }
 
     /// Returns the largest index of a function.
@@ -100,6 +98,23 @@ impl Stepped {
         let row = &self.rows[(index - 1 + knots) % all];
         row.iter().enumerate().map(|(k, part)| ((k + all - knots) % all + 1, *part)).collect()
     }
+}
+
+/// Returns the lower triangular factor of the inner products of `columns`, with a ridge at the size of rounding.
+fn lower_factor(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let trace: f64 = columns.iter().map(|column| product(column, column)).sum();
+    let ridge = 1e-12 * trace / columns.len().max(1) as f64;
+    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
+    for (i, column) in columns.iter().enumerate() {
+        let mut row: Vec<f64> = columns[..=i].iter().map(|other| product(column, other)).collect();
+        row[i] += ridge;
+        for j in 0..i {
+            row[j] = (row[j] - product(&row[..j], &lower[j])) / lower[j][j];
+        }
+        row[i] = (row[i] - product(&row[..i], &row[..i])).max(f64::MIN_POSITIVE).sqrt();
+        lower.push(row);
+    }
+    lower
 }
 
 #[cfg(test)]

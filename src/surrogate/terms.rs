@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::basis::Term;
-use super::fit::Expansion;
+use super::expansion::Expansion;
 use crate::design::Design;
 use crate::effect::Layout;
+
+/// A product of polynomials of different factors: (factor, degree) by rising factor, degrees from 1; the empty one is the
+/// constant.
+pub type Term = Vec<(usize, usize)>;
 
 /// Number of terms that are reported.
 const MAX_LEADING_TERMS: usize = 12;

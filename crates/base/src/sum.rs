@@ -57,6 +57,14 @@ pub fn product(x: &[f64], y: &[f64]) -> f64 {
     sum_by(n, |i| x[i] * y[i])
 }
 
+/// Adds `weight` times `other` to `column`.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+pub fn add_scaled(column: &mut [f64], weight: f64, other: &[f64]) {
+    for (value, other) in column.iter_mut().zip(other) {
+        *value += weight * other;
+    }
+}
+
 /// Returns the sum of (x - mean_x)(y - mean_y) over the common length of `x` and `y`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub fn centred_product(x: (&[f64], f64), y: (&[f64], f64)) -> f64 {

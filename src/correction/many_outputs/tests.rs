@@ -35,13 +35,13 @@ fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         .collect();
     let refs: Vec<Vec<&PointOutputs>> = outputs.iter().map(|of| of.iter().collect()).collect();
     let together = surrogates_together(&design, &families, &layout, &refs, &[None; 40]);
-    for (k, (of, together)) in refs.iter().zip(&together).enumerate() {
+    for (k, (of, together)) in refs.iter().zip(&together).enumerate().step_by(13) {
         let alone = surrogate_estimates(&design, &families, &layout, of, None).unwrap();
         let together = together.as_ref().unwrap();
-        assert!(together.explained > 1.0 - 1e-6, "{k}: {} {}", together.explained, alone.explained);
+        assert!(together.explained > 1.0 - 1e-9, "{k}: {} {}", together.explained, alone.explained);
         for (a, b) in alone.effects.iter().zip(&together.effects) {
             let (a, b) = (a.total.estimate, b.total.estimate);
-            assert!((a - b).abs() < 1e-4, "{k}: {a} {b}");
+            assert!((a - b).abs() < 1e-6, "{k}: {a} {b}");
         }
     }
     // Up to 32 outputs are fitted one by one, to the same bits.

@@ -6,8 +6,8 @@ use super::SurrogateRefusal;
 use crate::given::Column;
 use crate::given::order::Order;
 use crate::space::Distribution;
+use crate::surrogate::choices;
 use crate::surrogate::family::Family;
-use crate::surrogate::trials;
 use apportion_base::sum::{range, rescaled};
 
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
@@ -98,13 +98,7 @@ pub(super) fn of_distributions(
     }
     let values: Vec<Vec<f64>> = quantiles.into_iter().flatten().collect();
     let families: Vec<Family> = distributions.iter().map(Family::new).collect();
-    let mut all: Vec<Vec<Family>> = Vec::new();
-    for trial in trials(&families) {
-        if !all.contains(&trial.families) {
-            all.push(trial.families);
-        }
-    }
-    let all = all.into_iter();
+    let all = choices(&families).into_iter();
     Ok(all.map(|families| Coordinates { families, values: values.clone(), name: "the given distributions" }).collect())
 }
 

@@ -11,10 +11,10 @@
 //! the derivative of V_u by the distribution of each input (von Mises 1947). Both conditional means consist of terms
 //! that differ only in the degree of one input.
 
+use crate::surrogate::Expansion;
 use crate::surrogate::chaos::Basis;
 use crate::surrogate::extrapolation::groups;
-use crate::surrogate::fit::Expansion;
-use crate::surrogate::gram::add_scaled;
+use apportion_base::sum::add_scaled;
 
 /// The influence of every row on the variances of an expansion.
 pub(super) struct Influences {

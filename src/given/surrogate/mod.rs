@@ -15,10 +15,10 @@ use thiserror::Error;
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
+use crate::surrogate::Expansion;
 use crate::surrogate::NamedTerm;
 use crate::surrogate::chaos::{Chaos, Factor, degree_at, folds_at};
 use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::fit::Expansion;
 use crate::surrogate::{Effects, leading_terms};
 use crate::uncertainty::Estimate;
 

@@ -8,9 +8,9 @@ use super::knots::with_knots;
 use super::prior::{MAX_ROWS, Prior};
 use super::product::Product;
 use super::ways::{EffectVariances, Fit, Fits, Listed, Way};
-use crate::surrogate::basis::Term;
-use crate::surrogate::gram::add_scaled;
+use crate::surrogate::Term;
 use crate::surrogate::stepped::Knot;
+use apportion_base::sum::add_scaled;
 use apportion_base::sum::product;
 
 /// Parts of which each is left out once, and of larger tables.
@@ -225,7 +225,7 @@ fn parts_of_rows(rows: usize) -> Vec<usize> {
 }
 
 /// Mixes the bits of a number (Steele, Lea and Flood 2014).
-fn mixed(number: u64) -> u64 {
+pub(super) fn mixed(number: u64) -> u64 {
     let mut z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -10,9 +10,9 @@ use super::kernel::MAX_ORDER;
 use super::knots::with_knots;
 use super::prior::Prior;
 use super::ways::Listed;
-use crate::surrogate::basis::Term;
+use crate::surrogate::Expansion;
+use crate::surrogate::Term;
 use crate::surrogate::family::Family;
-use crate::surrogate::fit::Expansion;
 
 /// Share of what is left that the smallest coefficients may add to it.
 const DROPPED: f64 = 0.01;
@@ -30,10 +30,15 @@ pub(crate) struct CrossFits {
 impl CrossFits {
     /// Fits `y`, of mean about 0 and variance about 1, by `factors` at the same rows, which belong to these `parts`.
     pub fn new(factors: Vec<Factor>, y: Vec<f64>, parts: Vec<usize>) -> Self {
-        let first = Self::fitted(Prior::new(Basis { factors, rows: y.len(), parts }, y, MAX_ORDER));
+        let first = Self::smooth(factors, y, parts);
         let knots = if first.rest > EXACT { with_knots(&first.listed.prior) } else { None };
         let other = knots.map(Self::fitted).filter(|other| other.rest < first.rest);
         other.unwrap_or(first)
+    }
+
+    /// Does the same by polynomials alone.
+    pub fn smooth(factors: Vec<Factor>, y: Vec<f64>, parts: Vec<usize>) -> Self {
+        Self::fitted(Prior::new(Basis { factors, rows: y.len(), parts }, y, MAX_ORDER))
     }
 
     fn fitted(prior: Prior) -> Self {

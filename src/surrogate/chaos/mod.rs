@@ -11,6 +11,7 @@
 mod basis;
 mod choice;
 mod cross_fits;
+mod directions;
 mod kernel;
 mod knots;
 mod linear;
@@ -18,11 +19,13 @@ mod optimise;
 mod prior;
 mod product;
 mod squares;
+mod together;
 mod ways;
 
 pub(crate) use basis::{Basis, Factor};
 pub(crate) use choice::{Chaos, folds_at};
 pub(crate) use cross_fits::CrossFits;
+pub(crate) use together::expansions_together;
 
 /// Returns the largest degree of polynomials at this number of rows: smooth functions become exact as they grow.
 pub(crate) fn degree_at(rows: usize) -> usize {

@@ -7,7 +7,7 @@ use super::basis::Basis;
 use super::kernel::{Kernel, Variances};
 use super::linear::{Cholesky, Symmetric};
 use super::optimise::{Bounds, minimise};
-use crate::surrogate::basis::Term;
+use crate::surrogate::Term;
 use crate::surrogate::stepped::Knot;
 
 /// Maximum number of rows to which coefficients are fitted: more hardly change some hundred of them, and the others

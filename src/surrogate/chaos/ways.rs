@@ -8,7 +8,7 @@ use super::basis::Inner;
 use super::linear::{Cholesky, LANES, Panels, Symmetric};
 use super::prior::Prior;
 use super::squares::Squares;
-use crate::surrogate::basis::Term;
+use crate::surrogate::Term;
 
 /// How coefficients are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

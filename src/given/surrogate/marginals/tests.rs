@@ -1,5 +1,5 @@
 use super::*;
-use crate::surrogate::basis::Term;
+use crate::surrogate::Term;
 use crate::surrogate::chaos::Factor;
 use crate::surrogate::family::{Family, polynomials};
 
