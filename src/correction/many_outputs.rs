@@ -16,7 +16,7 @@ use crate::surrogate::family::Family;
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    CrossFitted, Effects, Expansion, FittedRows, choices, fewest_points, fitted_design, takes_surrogates,
+    CrossFitted, Effects, Expansion, FittedRows, choices, fewest_points, fitted_design, placed, takes_surrogates,
 };
 
 /// Maximum number of outputs that are fitted one by one, with steps and kinks.
@@ -126,17 +126,19 @@ impl Together<'_> {
     fn fit(&self, families: Vec<Family>) -> Fit {
         let nets: Vec<Net> = (0..self.outputs[0].nets.len()).map(|k| self.net(k, &families, 0)).collect();
         let rows = FittedRows::new(&nets, &families);
-        let outputs = self.complete.iter().map(|output| output.nets.iter().map(|net| &net.runs[..]).collect());
-        let outputs: Vec<Vec<&[Vec<f64>]>> = outputs.collect();
-        match &outputs[..] {
-            [nets] => self.known(&rows.fitted(nets, self.outputs[0].scale)),
-            all => self.with_nets(families, rows.smooth(all)),
+        if let [output] = self.outputs {
+            let of_nets: Vec<&[Vec<f64>]> = nets.iter().map(|net| &net.outputs[..]).collect();
+            return self.known(&rows.fitted(&of_nets, output.scale));
         }
+        let outputs = self.complete.iter().map(|output| output.nets.iter().map(|net| &net.runs[..]).collect());
+        self.with_nets(families, rows.smooth(&outputs.collect::<Vec<_>>()))
     }
 
-    /// Returns the fit with surrogates of the only output.
-    fn known(&self, CrossFitted { families, of_nets, .. }: &CrossFitted) -> Fit {
-        self.with_nets(families.clone(), of_nets.iter().map(|of_net| vec![of_net.clone()]).collect())
+    /// Returns the fit with surrogates of the only output, its steps placed by all rows: they move by so little that the
+    /// coefficients stay.
+    fn known(&self, known: &CrossFitted) -> Fit {
+        let nets: Vec<Net> = (0..known.of_nets.len()).map(|k| self.net(k, &known.families, 0)).collect();
+        self.with_nets(placed(&nets, known), known.of_nets.iter().map(|of_net| vec![of_net.clone()]).collect())
     }
 
     fn with_nets(&self, families: Vec<Family>, expansions: Vec<Vec<Expansion>>) -> Fit {

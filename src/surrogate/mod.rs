@@ -9,6 +9,7 @@ pub(crate) mod family;
 pub(crate) mod net;
 mod orthogonal;
 pub(crate) mod outputs;
+mod placed;
 pub(crate) mod stepped;
 mod terms;
 
@@ -17,6 +18,7 @@ pub use cross_fit::CrossFitted;
 pub(crate) use cross_fit::FittedRows;
 pub use expansion::Expansion;
 pub use family::Family;
+pub(crate) use placed::placed;
 pub(crate) use terms::{Effects, is_interaction, leading_terms, touches, within};
 pub use terms::{NamedTerm, SurrogateTerm, Term};
 

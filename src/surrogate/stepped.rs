@@ -71,6 +71,12 @@ impl Stepped {
         Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&columns) }
     }
 
+    /// Returns the same with other places of its knots, and their widths.
+    pub fn with_knots(&self, places: impl Iterator<Item = (Knot, f64)>) -> Self {
+        let (knots, widths) = places.unzip();
+        Self::new(&self.base, self.polynomials, knots, widths)
+    }
+
     /// Returns the largest index of a function.
     pub fn degree(&self) -> usize {
         self.polynomials + self.knots.len()

@@ -48,7 +48,8 @@ impl Directions {
         let mut values: Vec<Vec<f64>> = Vec::new();
         while values.len() < MAX_DIRECTIONS && outputs.iter().zip(&least).any(|(of, least)| of.square() > *least) {
             let first = values.len() * outputs.len();
-            let signs = (first..first + outputs.len()).map(|k| if mixed(k as u64) % 2 == 0 { 1.0 } else { -1.0 });
+            let signs =
+                (first..first + outputs.len()).map(|k| if mixed(k as u64).is_multiple_of(2) { 1.0 } else { -1.0 });
             let start = sum(&outputs, signs);
             let weights: Vec<f64> = outputs.par_iter().map(|output| product(&output.left, &start)).collect();
             let mut direction = sum(&outputs, weights.into_iter());

@@ -1,0 +1,135 @@
+//! Where steps lie, by the rows of all nets: those that a fit takes are too few to say, above all of a step that acts in
+//! a part of the rows.
+
+use rayon::prelude::*;
+
+use super::cross_fit::CrossFitted;
+use super::expansion::Expansion;
+use super::family::{Family, polynomials};
+use super::net::Net;
+use super::stepped::Knot;
+use apportion_base::sum::add_scaled;
+
+/// Widths of a knot, to either side, within which it is placed, at most half the way to another one.
+const RANGE: f64 = 32.0;
+
+/// Distance in the quantile to either side of a step.
+const SIDE: f64 = 1e-9;
+
+/// Share of the largest square of the step at which a row shows it.
+const SHOWN: f64 = 0.01;
+
+/// A row near a step.
+struct Row {
+    u: f64,
+    /// What the expansion leaves of the output.
+    left: f64,
+    /// By how much the expansion rises there.
+    step: f64,
+}
+
+/// Returns the families of `fitted` with every step where the rows of all `nets` leave least.
+pub(crate) fn placed(nets: &[Net], fitted: &CrossFitted) -> Vec<Family> {
+    let families = fitted.families.iter().enumerate().map(|(factor, family)| {
+        let Family::Stepped(stepped) = family else { return family.clone() };
+        let places = stepped.knots.iter().zip(&stepped.widths).map(|(knot, width)| {
+            let distances = stepped.knots.iter().map(|other| (other.u - knot.u).abs()).filter(|by| *by > 0.0);
+            let range = distances.fold(RANGE * width, |range, by| range.min(by / 2.0));
+            let rows = (!knot.is_kink).then(|| rows_near(nets, fitted, factor, knot.u, range));
+            let place = rows.map(|rows| place(&rows, knot.u, *width));
+            let (u, width) = place.unwrap_or((knot.u, *width));
+            (Knot { u, ..*knot }, width)
+        });
+        Family::Stepped(Box::new(stepped.with_knots(places)))
+    });
+    families.collect()
+}
+
+/// Returns the rows of all nets near a step of a factor at `at`.
+fn rows_near(nets: &[Net], fitted: &CrossFitted, factor: usize, at: f64, range: f64) -> Vec<Row> {
+    let of_nets = nets.par_iter().zip(&fitted.of_nets).map(|(net, expansion)| {
+        let (mut rows, mut columns) = (Vec::new(), vec![Vec::new(); fitted.families.len()]);
+        for run in 0..net.runs() {
+            let of_run: Vec<&[f64]> = (0..columns.len()).map(|factor| net.quantiles(run, factor)).collect();
+            for point in (0..net.points()).filter(|point| (of_run[factor][*point] - at).abs() < range) {
+                rows.push((of_run[factor][point], net.outputs[run][point]));
+                columns.iter_mut().zip(&of_run).for_each(|(column, of)| column.push(of[point]));
+            }
+        }
+        let g = values(expansion, &fitted.families, &columns);
+        let [below, above] = [-SIDE, SIDE].map(|side| {
+            columns[factor].iter_mut().for_each(|u| *u = at + side);
+            values(expansion, &fitted.families, &columns)
+        });
+        let rows = rows.into_iter().zip(g).zip(below.into_iter().zip(above));
+        rows.map(|(((u, y), g), (below, above))| Row { u, left: y - g, step: above - below }).collect()
+    });
+    let mut rows: Vec<Row> = of_nets.collect::<Vec<Vec<Row>>>().into_iter().flatten().collect();
+    rows.sort_by(|a, b| a.u.total_cmp(&b.u));
+    rows
+}
+
+/// Returns the values of an expansion at rows with these quantiles of every factor.
+fn values(expansion: &Expansion, families: &[Family], columns: &[Vec<f64>]) -> Vec<f64> {
+    let degree = super::expansion::degree([expansion]);
+    let columns = families.iter().zip(columns);
+    let functions: Vec<Vec<Vec<f64>>> = columns.clone().map(|(family, u)| polynomials(family, u, degree)).collect();
+    let mut sums = vec![0.0; columns.map(|(_, u)| u.len()).next().unwrap_or(0)];
+    for (term, c) in expansion.iter() {
+        let mut product = vec![1.0; sums.len()];
+        for (factor, degree) in term {
+            product.iter_mut().zip(&functions[*factor][degree - 1]).for_each(|(value, f)| *value *= f);
+        }
+        add_scaled(&mut sums, c, &product);
+    }
+    sums
+}
+
+/// Returns the place of a step between the two of `rows`, in rising order, that show it and leave least if it is
+/// between them, and their distance.
+fn place(rows: &[Row], at: f64, width: f64) -> (f64, f64) {
+    let largest = rows.iter().map(|row| row.step * row.step).fold(0.0, f64::max);
+    let shown: Vec<&Row> = rows.iter().filter(|row| row.step * row.step > SHOWN * largest).collect();
+    // What a row below the step adds to the squares, against the same row above it.
+    let costs = shown.iter().map(|row| {
+        let if_above = row.left + if row.u > at { 0.0 } else { -row.step };
+        (if_above + row.step).powi(2) - if_above * if_above
+    });
+    let (mut sum, mut best, mut count) = (0.0, 0.0, 0);
+    for (k, cost) in costs.enumerate() {
+        sum += cost;
+        if sum < best && shown.get(k + 1).is_none_or(|next| next.u > shown[k].u) {
+            (best, count) = (sum, k + 1);
+        }
+    }
+    if count == 0 || count == shown.len() {
+        return (at, width);
+    }
+    let (low, high) = (shown[count - 1].u, shown[count].u);
+    // The fit has placed it too, together with the coefficients.
+    let (first, last) = (low.max(at - width / 2.0), high.min(at + width / 2.0));
+    let (first, last) = if first < last { (first, last) } else { (low, high) };
+    (first + (last - first) / 2.0, high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_lies_between_the_rows_that_show_it() {
+        // A step of 2 at .7 that acts in every fifth row, modelled at .72.
+        let rows: Vec<Row> = (0..200)
+            .map(|k| {
+                let u = 0.6 + f64::from(k) * 1e-3;
+                let step = if k % 5 == 0 { 2.0 } else { 0.0 };
+                let left = if u > 0.7 && u < 0.72 { step } else { 0.0 };
+                Row { u, left, step }
+            })
+            .collect();
+        let (at, width) = place(&rows, 0.72, 1e-3);
+        assert!((at - 0.7).abs() <= 2.5e-3 && (width - 5e-3).abs() < 1e-12, "{at} {width}");
+        // Rows that all lie on one side do not say where it is.
+        assert_eq!(place(&rows[..50], 0.72, 1e-3), (0.72, 1e-3));
+    }
+}
