@@ -10,7 +10,7 @@ use super::net::Net;
 use super::stepped::Knot;
 use apportion_base::sum::add_scaled;
 
-/// Widths of a knot, to either side, within which it is placed, at most half the way to another one.
+/// Widths of a step, to either side, within which it is placed.
 const RANGE: f64 = 32.0;
 
 /// Distance in the quantile to either side of a step.
@@ -18,6 +18,9 @@ const SIDE: f64 = 1e-9;
 
 /// Share of the largest square of the step at which a row shows it.
 const SHOWN: f64 = 0.01;
+
+/// Gain in squares by another place, in those of the noise, that is clear.
+const CLEAR: f64 = 20.0;
 
 /// A row near a step.
 struct Row {
@@ -28,19 +31,16 @@ struct Row {
     step: f64,
 }
 
-/// Returns the families of `fitted` with every step where the rows of all `nets` leave least.
+/// Returns the families of `fitted` with the only step of a factor where the rows of all `nets` leave least. Several knots
+/// of a factor describe one course together, in coefficients that belong to their places.
 pub(crate) fn placed(nets: &[Net], fitted: &CrossFitted) -> Vec<Family> {
     let families = fitted.families.iter().enumerate().map(|(factor, family)| {
         let Family::Stepped(stepped) = family else { return family.clone() };
-        let places = stepped.knots.iter().zip(&stepped.widths).map(|(knot, width)| {
-            let distances = stepped.knots.iter().map(|other| (other.u - knot.u).abs()).filter(|by| *by > 0.0);
-            let range = distances.fold(RANGE * width, |range, by| range.min(by / 2.0));
-            let rows = (!knot.is_kink).then(|| rows_near(nets, fitted, factor, knot.u, range));
-            let place = rows.map(|rows| place(&rows, knot.u, *width));
-            let (u, width) = place.unwrap_or((knot.u, *width));
-            (Knot { u, ..*knot }, width)
-        });
-        Family::Stepped(Box::new(stepped.with_knots(places)))
+        let ([knot @ Knot { is_kink: false, u }], [width]) = (&stepped.knots[..], &stepped.widths[..]) else {
+            return family.clone();
+        };
+        let (u, width) = place(&rows_near(nets, fitted, factor, *u, RANGE * width), *u, *width);
+        Family::Stepped(Box::new(stepped.with_knot(Knot { u, ..*knot }, width)))
     });
     families.collect()
 }
@@ -90,19 +90,22 @@ fn values(expansion: &Expansion, families: &[Family], columns: &[Vec<f64>]) -> V
 fn place(rows: &[Row], at: f64, width: f64) -> (f64, f64) {
     let largest = rows.iter().map(|row| row.step * row.step).fold(0.0, f64::max);
     let shown: Vec<&Row> = rows.iter().filter(|row| row.step * row.step > SHOWN * largest).collect();
-    // What a row below the step adds to the squares, against the same row above it.
-    let costs = shown.iter().map(|row| {
+    // What the step leaves of a row above it and of one below it.
+    let squares = shown.iter().map(|row| {
         let if_above = row.left + if row.u > at { 0.0 } else { -row.step };
-        (if_above + row.step).powi(2) - if_above * if_above
+        (if_above * if_above, (if_above + row.step).powi(2))
     });
-    let (mut sum, mut best, mut count) = (0.0, 0.0, 0);
-    for (k, cost) in costs.enumerate() {
-        sum += cost;
+    let squares: Vec<(f64, f64)> = squares.collect();
+    let noise = squares.iter().map(|(above, below)| above.min(*below)).sum::<f64>() / squares.len().max(1) as f64;
+    let (mut sum, mut now, mut best, mut count) = (0.0, 0.0, 0.0, 0);
+    for (k, (above, below)) in squares.iter().enumerate() {
+        sum += below - above;
+        now = if shown[k].u > at { now } else { sum };
         if sum < best && shown.get(k + 1).is_none_or(|next| next.u > shown[k].u) {
             (best, count) = (sum, k + 1);
         }
     }
-    if count == 0 || count == shown.len() {
+    if count == 0 || count == shown.len() || now - best < CLEAR * noise {
         return (at, width);
     }
     let (low, high) = (shown[count - 1].u, shown[count].u);

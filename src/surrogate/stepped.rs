@@ -71,10 +71,9 @@ impl Stepped {
         Self { base: base.clone(), polynomials: degree, knots, widths, rows: lower_factor(&columns) }
     }
 
-    /// Returns the same with other places of its knots, and their widths.
-    pub fn with_knots(&self, places: impl Iterator<Item = (Knot, f64)>) -> Self {
-        let (knots, widths) = places.unzip();
-        Self::new(&self.base, self.polynomials, knots, widths)
+    /// Returns the same with another place and width of its only knot.
+    pub fn with_knot(&self, knot: Knot, width: f64) -> Self {
+        Self::new(&self.base, self.polynomials, vec![knot], vec![width])
     }
 
     /// Returns the largest index of a function.
