@@ -19,6 +19,9 @@ use crate::study::Study;
 use crate::uncertainty::{Estimate, KeptPoints, OutputMoments};
 use apportion_base::quantity::Unit;
 
+/// Number of outputs above which none has a scatter plot: its points are ten times everything else in a result.
+const MAX_SCATTERED: usize = 100;
+
 /// The first rows of the design, for results that need individual values.
 pub(super) struct OutputRows {
     /// Rows for scatter plots; `None` for neither these nor distributions.
@@ -86,7 +89,7 @@ pub(super) fn output_result(
     if let Some(rows) = &rows.scatter {
         let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
         result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
-        if !is_item {
+        if !is_item && run.model.outputs().len() <= MAX_SCATTERED {
             result.scatter = scatter(study, &result, rows, &samples, unit);
         }
     }

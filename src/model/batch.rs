@@ -143,15 +143,6 @@ impl Batch {
         self.counts.add(counter, amount);
     }
 
-    /// Copies the rows of a settled batch of the same model to row `first` and the following ones.
-    pub(crate) fn take_over(&mut self, first: usize, part: &Self) {
-        for (mine, theirs) in self.columns.iter_mut().zip(&part.columns) {
-            mine[first..first + part.rows].copy_from_slice(theirs);
-        }
-        self.failures.extend(part.failures.iter().map(|(output, row, why)| (*output, first + row, why.clone())));
-        self.add_counts(&part.flags, &part.counts);
-    }
-
     /// Fails every value that is not finite and has no failure yet, with `RowFailure::not_finite` or the reason why
     /// the model gave up, and sorts the failures. Must be called once after the worker.
     pub fn settle(&mut self) {

@@ -42,5 +42,9 @@ impl StudyRecord {
 
 /// Returns plain data as JSON text, ending in a newline; a number that is not finite is null.
 pub fn json(file: &impl Serialize) -> String {
-    serde_json::to_string_pretty(file).expect("plain data") + "\n"
+    // A person does not read longer ones, and the blanks are half of them.
+    const MAX_INDENTED: usize = 1 << 20;
+    let text = serde_json::to_string(file).expect("plain data");
+    let indented = (text.len() < MAX_INDENTED).then(|| serde_json::to_string_pretty(file).expect("plain data"));
+    indented.unwrap_or(text) + "\n"
 }

@@ -114,13 +114,16 @@ pub(super) fn open(
 ) -> Result<RunJournal, RunError> {
     let Runner { study, resume, only_if_long, .. } = *runner;
     let none = RunJournal::none(study);
-    let header = header(study, shard, &none.files.digests);
+    let mut header = header(study, shard, &none.files.digests);
+    if !runner.points.is_null() {
+        header["identity"]["points"] = runner.points.clone();
+    }
     // Even a few runs of a slow model may have cost much.
     let waits = only_if_long && shard.is_none() && !study.model().is_slow();
     let Some((journal, contents)) = resume_file(path, resume, messages)? else {
         return none.with_new(path, header, waits);
     };
-    let other = another_study(study, &contents.header);
+    let other = another_identity(&header["identity"], &contents.header);
     let changed = another_model(&contents.header, &none.files.digests);
     let reason = match (other, changed) {
         _ if resume == Resume::Restart => Some("restarted".to_owned()),
@@ -150,7 +153,10 @@ pub(super) fn open(
         }
     }
     let rows = rows_on_record(study, &resumed.store);
-    if rows > 0 {
+    if !runner.points.is_null() {
+        let rows = resumed.store.count(0, 0..u64::MAX).0;
+        messages.send(&format!("note: {rows} runs are already saved in {}", path.display()));
+    } else if rows > 0 {
         let total = study.design.rows();
         messages.send(&format!("note: {rows} of {total} runs are already saved in {}", path.display()));
     }
@@ -188,7 +194,11 @@ fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
 
 /// Returns how the study of a journal with this header differs from `study`, if it does.
 fn another_study(study: &Study, header: &Value) -> Option<JournalProblem> {
-    let differences = differences(&header["identity"], &study.identity()).join("; ");
+    another_identity(&study.identity(), header)
+}
+
+fn another_identity(identity: &Value, header: &Value) -> Option<JournalProblem> {
+    let differences = differences(&header["identity"], identity).join("; ");
     let name = header["study"].as_str().unwrap_or_default().to_owned();
     (!differences.is_empty()).then_some(JournalProblem::OtherStudy(name, differences))
 }

@@ -12,12 +12,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use serde_json::Value;
 pub use worker::{Requests, WorkerStudy};
 
 use crate::model::RunContext;
 use crate::result::StudyResult;
-use crate::run::{Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store};
+use crate::run::{Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, TableJournal};
 use crate::study::Study;
+use journal::RunJournal;
 
 impl Study {
     /// Runs the study on all cores and estimates its indices.
@@ -59,6 +61,7 @@ impl Study {
             only_if_long: false,
             resume: Resume::IfThere,
             store: None,
+            points: Value::Null,
         }
     }
 }
@@ -120,6 +123,8 @@ pub struct Runner<'a> {
     only_if_long: bool,
     resume: Resume,
     store: Option<&'a Store>,
+    /// What identifies the points, if they are not those of the design.
+    points: Value,
 }
 
 impl<'a> Runner<'a> {
@@ -209,6 +214,19 @@ impl<'a> Runner<'a> {
         filled?;
         journal.finish()?;
         Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
+    }
+
+    /// Opens the journal for a [`TableRun`](crate::run::TableRun) of the study's model at other points than those of its
+    /// design, which `points` identifies; `None` for a fast model without a journal.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), if there is no journal, or it cannot be used.
+    pub fn table_journal(self, points: Value) -> Result<Option<TableJournal>, RunError> {
+        let path = self.journal_for("a table of points")?.to_owned();
+        let runner = Self { points, only_if_long: true, ..self };
+        let journal = journal::open(&runner, &path, None, runner.context().messages())?;
+        let RunJournal { store, open, .. } = journal;
+        Ok(open.get().is_some().then_some(TableJournal { store, open }))
     }
 
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The

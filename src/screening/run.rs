@@ -66,7 +66,7 @@ pub(super) fn run(
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         run.run(&inputs, &mut batch).map_err(|halt| match halt {
             EvaluationStopped::GaveUp(give_up) => RunError::GaveUp(give_up),
-            EvaluationStopped::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
+            _ => RunError::Interrupted { done: run.rows_done(), total },
         })?;
         for (output, (effects, values)) in outcome.effects.iter_mut().zip(&mut outcome.values).enumerate() {
             for (moves, values) in moves.iter().zip(batch.column(output).chunks_exact(rows)) {

@@ -74,6 +74,44 @@ fn sample_overwrites_only_its_own_designs() {
 }
 
 #[test]
+fn an_evaluation_that_ended_early_is_resumed() {
+    const TWICE: &str = "import csv, os, sys\nfor row in csv.DictReader(sys.stdin):\n    number, a = row['id'], float(row['a'])\n    \
+                         open('calls', 'a').write(f'{a}\\n')\n    again = a == 0.75 and not os.path.exists('go')\n    for _ in \
+                         range(1 + again):\n        print(number, 2 * a, sep=',', flush=True)\n";
+    let folder = Folder::new();
+    folder.with("model.py", TWICE);
+    let study = folder.with(
+        "s.toml",
+        SLOW.replace(
+            "command = [\"python3\", \"model.py\"]",
+            "[command]\nprogram = [\"python3\", \"model.py\"]\nworkers = 1",
+        ),
+    );
+    let values: Vec<f64> = (0..80).map(|k| f64::from(k) / 80.0).collect();
+    let lines: String = values.iter().map(|a| format!("{a},1\n")).collect();
+    let (points, out) = (folder.with("p.csv", format!("a,b\n{lines}")), folder.path("o.csv"));
+    let evaluate =
+        |more: &[&str]| apportion(&[&["evaluate", text(&study), text(&points), "-o", text(&out)], more].concat());
+    assert_eq!(evaluate(&["--resume"]).status.code(), Some(2));
+    assert_ne!(evaluate(&[]).status.code(), Some(0));
+    assert!(!out.exists() && folder.path("o.csv.journal").exists());
+    let calls = || std::fs::read_to_string(folder.path("calls")).unwrap().lines().count();
+    let before = calls();
+    folder.with("go", "");
+    let output = evaluate(&["--resume"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // Only the rows that had no answer are evaluated again.
+    assert!(before > 50 && calls() < 90, "{before} {}", calls());
+    let outputs: Vec<f64> =
+        std::fs::read_to_string(&out).unwrap().lines().skip(1).map(|line| line.parse().unwrap()).collect();
+    assert_eq!(outputs, values.iter().map(|a| 2.0 * a).collect::<Vec<f64>>());
+    // Other points are another table.
+    folder.with("p.csv", format!("a,b\n{lines}0.5,0.5\n"));
+    assert_eq!(evaluate(&["--force", "--resume"]).status.code(), Some(2));
+    assert_eq!(evaluate(&["--force"]).status.code(), Some(0));
+}
+
+#[test]
 fn factors_without_a_column_are_listed_with_their_values() {
     let folder = Folder::new();
     let (study, points, out) = (folder.with("s.toml", SUM), folder.with("p.csv", "b\n1\n"), folder.path("o.csv"));

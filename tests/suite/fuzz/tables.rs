@@ -52,7 +52,7 @@ pub fn run(bytes: &[u8]) {
     for names in [&given[..0], &given] {
         let Some(mut rows) = rows(csv, names) else { continue };
         let mut values = Vec::new();
-        let Ok(evaluated) = evaluate(&STUDY, rows.as_mut(), &mut values, false, &RunContext::default()) else {
+        let Ok(evaluated) = evaluate(&STUDY, rows.as_mut(), &mut values, false, None, &RunContext::default()) else {
             continue;
         };
         // A header, and a line for each point.

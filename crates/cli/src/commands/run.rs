@@ -32,6 +32,19 @@ pub struct Arguments {
     /// Also write the points and outputs of all runs to a file (.csv or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
+    #[command(flatten)]
+    resumption: Resumption,
+    /// Always keep a journal (without this option: if the runs take longer than 10 s, or the model is a program)
+    #[arg(long, conflicts_with = "no_journal")]
+    journal: bool,
+    /// Evaluate one of N shards of the runs and write its own journal, for `apportion merge`
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
+    shard: Option<Shard>,
+}
+
+/// What becomes of the journal.
+#[derive(clap::Args)]
+pub struct Resumption {
     /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
     /// of the same study is used if it exists)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
@@ -42,20 +55,14 @@ pub struct Arguments {
     /// Evaluate every run again; an existing journal is renamed
     #[arg(long)]
     restart: bool,
-    /// Always keep a journal (without this option: if the runs take longer than 10 s, or the model is a program)
-    #[arg(long, conflicts_with = "no_journal")]
-    journal: bool,
     /// Neither use nor write a journal
     #[arg(long)]
-    no_journal: bool,
-    /// Evaluate one of N shards of the runs and write its own journal, for `apportion merge`
-    #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
-    shard: Option<Shard>,
+    pub no_journal: bool,
 }
 
-impl Arguments {
+impl Resumption {
     /// What becomes of runs that are on record.
-    fn resume(&self) -> Resume {
+    pub fn resume(&self) -> Resume {
         match self {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
             Self { resume: true, .. } => Resume::Require,
@@ -71,7 +78,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     }
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.output.folder(study.name());
-    let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
+    let journal = (!arguments.resumption.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
     let artefacts = arguments.output.artefacts(study.name(), study.files());
     let artefacts = Artefacts { journal: journal.clone(), other: arguments.save_outputs.clone(), ..artefacts };
     let artefacts = artefacts.prepare(study.name())?;
@@ -103,7 +110,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     };
     // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
     let stop = stop::on_signal();
-    let mut runner = runner.on_message(say).stop(stop).resume(arguments.resume());
+    let mut runner = runner.on_message(say).stop(stop).resume(arguments.resumption.resume());
     if let Some(journal) = &journal {
         runner = if arguments.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use apportion::model::{Batch, Output, RowFailure, RunContext};
-use apportion::run::{EvaluationStopped, TableRun};
+use apportion::run::{EvaluationStopped, TableJournal, TableRun};
 use apportion::space::{Factor, Space};
 use apportion::study::Study;
 use apportion_base::names::{did_you_mean, nearest};
@@ -23,7 +23,7 @@ pub enum EvaluateError {
     /// The outputs cannot be written.
     #[error("cannot write the outputs: {0}")]
     Output(#[from] std::io::Error),
-    /// The model gave up, or the evaluation was stopped.
+    /// The model gave up, the evaluation was stopped, or outputs could not be kept.
     #[error("{halt}; {points} points had been evaluated")]
     Halted {
         /// Number of points evaluated before.
@@ -55,7 +55,7 @@ pub struct Evaluated {
 /// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
 /// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
-/// The run of `context` may stop it. If `with_points`, the points are before their outputs in every line: a column for
+/// The run of `context` may stop it; points in `journal` are not evaluated again. If `with_points`, the points are before their outputs in every line: a column for
 /// each factor, in its unit.
 ///
 /// # Errors
@@ -65,12 +65,13 @@ pub fn evaluate(
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
     with_points: bool,
+    journal: Option<TableJournal>,
     context: &RunContext<'_>,
 ) -> Result<Evaluated, EvaluateError> {
     let mut reader = PointsReader::new(points, study.space())?;
     let model = study.model();
     let factors = study.space().factors();
-    let run = TableRun::new(model.as_ref(), context, 0);
+    let run = TableRun::new(model.as_ref(), context, 0).with_journal(journal);
     let max_rows = run.rows_at_once();
     let mut batch = Batch::new(model.as_ref());
     let mut columns = vec![Vec::with_capacity(max_rows); factors.len()];
@@ -94,8 +95,8 @@ pub fn evaluate(
         }
         batch.reset(rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let points = evaluated.points;
-        run.run(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
+        let evaluation = run.run(&inputs, &mut batch);
+        evaluation.map_err(|halt| EvaluateError::Halted { points: run.rows_done(), halt })?;
         evaluated.count(model.outputs(), &batch);
         let answers: Vec<Vec<f64>> =
             model.outputs().iter().enumerate().map(|(k, output)| in_unit(output, batch.column(k))).collect();
