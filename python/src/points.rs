@@ -1,6 +1,6 @@
 //! Arrays of points and outputs that exist already.
 
-use apportion::given::{Column, analyse, measures as measured, surrogate_indices};
+use apportion::given::{Column, analyse, average_replicates, measures as measured, surrogate_indices};
 use apportion_report::given::{GivenFacts, build_given, given_document};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -36,17 +36,19 @@ pub fn given_data(
     name: &str,
     sha256: String,
 ) -> PyResult<Document> {
-    let (inputs, outputs) = (columns(inputs.0, &inputs.1)?, columns(outputs.0, &outputs.1)?);
+    let (mut inputs, mut outputs) = (columns(inputs.0, &inputs.1)?, columns(outputs.0, &outputs.1)?);
     let laws = distributions.map(|study| study.distributions_of(&inputs)).transpose()?;
     let name = name.to_owned();
     let work = move |stop: &Stop| {
         let going_on = || if stop.is_set() { Err("interrupted".to_owned()) } else { Ok(()) };
+        let replicates = average_replicates(&mut inputs, &mut outputs).map_err(|error| error.to_string())?;
         let indices = analyse(&inputs, &outputs, seed).map_err(|error| error.to_string())?;
         going_on()?;
         let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
         going_on()?;
         let facts = GivenFacts { file: name.clone(), sha256, dropped: None, seed };
-        let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts);
+        let mut result =
+            build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).after(replicates.as_ref(), None);
         if measures {
             result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));
         }

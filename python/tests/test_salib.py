@@ -26,6 +26,49 @@ def test_indices_of_a_known_function(second_order):
         assert abs(found["S2"][0, 2] - 0.2437) < 0.02 and np.isnan(found["S2"][2, 0])
 
 
+def layout(a, b):
+    """The points A, AB_j, B of all base points, and their numbers."""
+    rows = np.repeat(a[:, None, :], a.shape[1] + 2, axis=1)
+    rows[:, -1] = b
+    for j in range(a.shape[1]):
+        rows[:, 1 + j, j] = b[:, j]
+    return rows.reshape(-1, a.shape[1])
+
+
+def analysed(x, problem=PROBLEM, y=None):
+    y = ishigami(*x.T) if y is None else y
+    return salib.analyze.sobol.analyze(problem, y, calc_second_order=False, X=x, seed=1)
+
+
+def test_points_made_elsewhere_are_checked():
+    rng = np.random.default_rng(1)
+    a, b = rng.uniform(-np.pi, np.pi, (2, 400, 3))
+    x = layout(a, b)
+    found = analysed(x)
+    plain = salib.analyze.sobol.analyze(PROBLEM, ishigami(*x.T), calc_second_order=False, seed=1)
+    assert all(np.array_equal(found[key], plain[key]) for key in plain)
+    with pytest.warns(UserWarning, match="1200 base points repeat earlier ones"):
+        assert np.array_equal(analysed(np.vstack([x] * 4))["S1_conf"], found["S1_conf"])
+    # Two base points have lost rows; their other rows are left out.
+    with pytest.warns(UserWarning, match="7 rows"):
+        kept = analysed(np.delete(x, [7, 8, 900], 0))
+    assert np.array_equal(kept["ST"], analysed(np.delete(x.reshape(400, 5, 3), [1, 180], 0).reshape(-1, 3))["ST"])
+    normal = rng.normal(size=(2, 400, 3)) @ np.linalg.cholesky([[1, 0.8, 0], [0.8, 1, 0], [0, 0, 1]]).T
+    shifted = layout(a, b + 1)
+    together = layout(a, b)
+    together.reshape(400, 5, 3)[:, 2, 2] = b[:, 2]
+    refused = {
+        "x1 in matrix A and x1 in B": layout(a, 0.7 * a + 0.3 * b),
+        "x1 and x2 are correlated": layout(*normal),
+        "x1 has other values": shifted,
+        "x2 and x3 change together": together,
+        "not in SALib's order": x[rng.permutation(len(x))],
+    }
+    for what, points in refused.items():
+        with pytest.raises(ap.StudyError, match=what):
+            analysed(points)
+
+
 def run(script, package):
     """What a script prints with `package` in the place of SALib, and its names."""
     text, names, printed = script.read_text(encoding="utf-8").replace("from SALib", f"from {package}"), {}, io.StringIO()

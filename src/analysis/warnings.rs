@@ -65,21 +65,13 @@ pub(super) fn of_flags(model: &dyn Model, totals: &Totals) -> Vec<Warning> {
     warnings
 }
 
-/// Effective number of rows of a variance below which it counts as dominated by few.
-const MIN_EFFECTIVE_ROWS: f64 = 40.0;
-
 /// Share of the variance that surrogates should explain for a split design to gain (`docs/accuracy/surrogate.md`).
 const MIN_EXPLAINED: f64 = 0.9;
 
-/// Excess kurtosis (that of an exponential distribution) up to which few rows only mean a small sample.
-const MAX_KURTOSIS: f64 = 6.0;
-
-/// Returns a warning if few of its `values` dominate the variance of an output: n/(g2 + 3) of n rows with the excess
-/// kurtosis g2 is their number if all others had no effect.
+/// Returns a warning if few of its values dominate the variance of an output.
 pub(super) fn of_values(moments: &CentralMoments) -> Option<Warning> {
     let (values, kurtosis) = (moments.count(), moments.excess_kurtosis()?);
-    let rows = values as f64 / (kurtosis + 3.0);
-    (kurtosis > MAX_KURTOSIS && rows < MIN_EFFECTIVE_ROWS).then_some(Warning::FewRows { rows, values, kurtosis })
+    Warning::few_rows(values, kurtosis)
 }
 
 /// Effective number of rows of a variance, as above, below which a region that the rows show has too few of them.

@@ -88,6 +88,21 @@ pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
     numbers.into_iter().all(|number| !std::mem::replace(&mut seen[number], true))
 }
 
+/// Returns whether the rank of an input moves by very few different steps from row to row, as in a lattice; in a time
+/// series there are some more.
+pub(super) fn is_lattice(inputs: &[(&str, &Order)], rows: usize) -> bool {
+    inputs.iter().any(|(_, order)| few_steps(order, rows).is_some_and(|different| different * 20 <= rows))
+}
+
+/// Returns whether counts over a grid of two inputs are clearly more even than those of independent draws.
+pub(super) fn is_even_pair(a: &Order, b: &Order, rows: usize) -> bool {
+    /// A standard normal number: a pair alone is less clear than a table.
+    const CLEAR: f64 = -3.0;
+    let fitting = GRIDS.into_iter().rev().filter(|grid| grid * grid <= rows).take(3);
+    let mut deviations = fitting.filter_map(|grid| deviation(&a.classes(grid), &b.classes(grid)));
+    deviations.any(|deviation| deviation.normal() < CLEAR)
+}
+
 /// Returns where the counts of rows over a grid are too even, and by how many standard deviations.
 fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<String> {
     let classes: Vec<Partition> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();

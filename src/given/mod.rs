@@ -6,6 +6,7 @@
 //! more accurate first-order ones if the model is smooth and the inputs are independent of each other. [`measures`]
 //! uses more than the variance.
 
+mod alias;
 mod binned;
 mod column;
 mod dependence;
@@ -15,6 +16,9 @@ mod order;
 mod outcome;
 mod rank;
 mod repeats;
+mod replicates;
+mod serial;
+mod shared;
 mod surrogate;
 
 pub use binned::Binned;
@@ -29,6 +33,7 @@ use order::Order;
 pub use outcome::{InputIndices, OutputIndices};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+pub use replicates::{Replicates, average_replicates};
 pub use surrogate::{SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices};
 use thiserror::Error;
 
@@ -78,18 +83,47 @@ pub enum GivenError {
     #[error(
         "the rows are those of a pick-freeze (Saltelli) design: values of an input recur in other rows together with \
          those of other inputs. Rows that share values are not independent, and indices from them as from given data \
-         would be wrong. Analyse the design as such, or keep only its rows A and B"
+         would be wrong. Analyse the design as such (`apportion.salib.analyze.sobol` in Python, with the points as `X`), or \
+         keep only its rows A and B"
     )]
     PickFreeze,
     /// The rows of a one-at-a-time design.
     #[error(
-        "the rows are those of a one-at-a-time design (such as Morris trajectories): {pairs} of {rows} rows differ from \
-         the row before in a single input. They are not independent draws, and indices from them would be wrong. Analyse \
-         the design as such"
+        "the rows are those of a one-at-a-time design (such as Morris trajectories, or sweeps around a base point): {pairs} \
+         {}. They are not independent draws, and indices from them would be wrong. Analyse the design as such (Morris: \
+         `apportion.salib.analyze.morris` in Python), or keep only rows that were drawn at random", how.in_words(*rows)
     )]
     OneAtATime {
-        /// Rows that differ from the one before in one input only.
+        /// Rows, or pairs of them.
         pairs: usize,
+        /// In what they are alike.
+        how: Alike,
+        /// Rows of the table.
+        rows: usize,
+    },
+    /// An input that is a function of others.
+    #[error(
+        "in all rows `{input}` is a function of {others}, as in a fractional factorial design: nothing tells its effect from \
+         their interaction. Add rows that tell them apart, or leave `{input}` out (--inputs) and read that interaction \
+         as its effect too"
+    )]
+    Alias {
+        /// The input.
+        input: String,
+        /// The others, each in quotes.
+        others: String,
+    },
+    /// Rows that repeat all inputs but one.
+    #[error(
+        "the {rows} rows have only {groups} different rows of all inputs but `{input}`. If it is a time or a place of a \
+         series, write one row for each run, with a column for each of its values (in pandas: `pivot`); if it numbers \
+         replicates, call it `seed`, and they are averaged"
+    )]
+    AllButOne {
+        /// The one.
+        input: String,
+        /// Different rows of the others.
+        groups: usize,
         /// Rows of the table.
         rows: usize,
     },
@@ -106,6 +140,31 @@ pub enum GivenError {
     },
 }
 
+/// In what the rows of a one-at-a-time design are alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Alike {
+    /// A row and the one before it.
+    Consecutive,
+    /// Pairs of rows, in any order.
+    Pairs,
+    /// Rows and a base point.
+    Base,
+}
+
+impl Alike {
+    fn in_words(self, rows: usize) -> String {
+        match self {
+            Self::Consecutive => format!("of {rows} rows differ from the row before in a single input"),
+            Self::Pairs => {
+                format!("pairs of the {rows} rows differ in one or two inputs only, far more than by chance")
+            }
+            Self::Base => {
+                format!("of {rows} rows leave the most frequent value in a few inputs only, far more than by chance")
+            }
+        }
+    }
+}
+
 /// The results for a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenIndices {
@@ -117,6 +176,8 @@ pub struct GivenIndices {
     pub dependence: Option<Dependence>,
     /// One entry per output.
     pub outputs: Vec<OutputIndices>,
+    /// How many independent rows they are worth, if they follow each other in time: then there are no intervals.
+    pub effective_rows: Option<f64>,
 }
 
 impl GivenIndices {
@@ -163,16 +224,49 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<Given
     let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let varying: Vec<usize> = (0..inputs.len()).filter(|&j| orders[j].groups() > 1).collect();
     let varied: Vec<(&str, &Order)> = varying.iter().map(|&j| (inputs[j].name.as_str(), &orders[j])).collect();
+    let in_time: Vec<f64> = varied.iter().map(|(_, order)| serial::autocorrelation(order)).collect();
+    let of_outputs = outputs.iter().map(|output| serial::autocorrelation(&Order::from_values(&output.values)));
+    let of_output = of_outputs.fold(0.0, f64::max);
+    let effective_rows = in_time.iter().filter_map(|of_input| serial::effective_rows([*of_input, of_output], rows));
+    let effective_rows = effective_rows.min_by(f64::total_cmp);
     let points = if evenness::is_grid(&varied, rows) {
         PointSet::Grid
     } else {
         repeats::check(&varied, rows)?;
+        alias::check(&varied)?;
         evenness::point_set(&varied, rows)
     };
-    let dependence = dependence::between(&varied, rows);
-    let is_random = points == PointSet::Independent;
-    let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, &orders, is_random, seed)).collect();
-    Ok(GivenIndices { rows, points, dependence, outputs })
+    // The rows of a point sequence have an order too.
+    let effective_rows = effective_rows.filter(|_| points != PointSet::Grid && !evenness::is_lattice(&varied, rows));
+    let points = if effective_rows.is_some() { PointSet::Independent } else { points };
+    let dependence = dependence::between(&varied, effective_rows.map_or(rows, |rows| rows as usize));
+    let rows_are = Rows { is_random: points == PointSet::Independent, has_intervals: effective_rows.is_none() };
+    let is_even = orders.iter().map(|order| match points {
+        PointSet::Independent => false,
+        PointSet::Grid => true,
+        PointSet::TooEven(_) => is_even(order, &varied, rows),
+    });
+    let is_even: Vec<bool> = is_even.collect();
+    let outputs =
+        outputs.iter().map(|output| outcome::of_output(output, inputs, (&orders, &is_even), rows_are, seed)).collect();
+    Ok(GivenIndices { rows, points, dependence, outputs, effective_rows })
+}
+
+/// What the rows allow.
+#[derive(Debug, Clone, Copy)]
+struct Rows {
+    /// Whether they may be independent draws: then neighbours by rank are.
+    is_random: bool,
+    /// Whether the errors of estimates are known.
+    has_intervals: bool,
+}
+
+/// Returns whether the rows of neighbours in an input are as even in most other inputs as those of a net: then the noise
+/// of means over bins is not that of random rows.
+fn is_even(order: &Order, varied: &[(&str, &Order)], rows: usize) -> bool {
+    let others: Vec<&Order> = varied.iter().map(|(_, other)| *other).filter(|other| *other != order).collect();
+    let even = others.iter().filter(|other| evenness::is_even_pair(order, other, rows)).count();
+    2 * even >= others.len()
 }
 
 /// Returns the indices of `most` of `rows` rows, or of all if there are no more, in random order.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::column::{Column, NoVariance};
 use super::order::Order;
-use super::{Binned, binned, centred, rank};
+use super::{Binned, Rows, binned, centred, rank};
 use crate::uncertainty::{Estimate, Interval};
 
 /// The results for one output.
@@ -47,20 +47,23 @@ impl InputIndices {
 pub(super) fn of_output(
     output: &Column,
     inputs: &[Column],
-    orders: &[Order],
-    is_random: bool,
+    (orders, is_even): (&[Order], &[bool]),
+    Rows { is_random, has_intervals }: Rows,
     seed: u64,
 ) -> OutputIndices {
     let indices = centred(&output.values).map(|z| {
         let few = Estimate { estimate: 0.0, interval: Some(Interval::about(0.0, one_over_carrying_rows(&z))) };
         let inputs = inputs.iter().zip(orders).enumerate().map(|(j, (input, order))| {
-            let Binned { estimate, bins } = binned::of_order(order, &input.values, &z, is_random);
+            let Binned { estimate, bins } = binned::of_order(order, &input.values, &z, !is_even[j]);
             let rank = is_random.then(|| rank::of_order(order, &z, seed, j as u64));
+            let [rank, binned] =
+                [rank.map(|rank| Estimate::difference(few, rank)), Some(Estimate::difference(few, estimate))]
+                    .map(|of| of.map(|of| if is_random && has_intervals { of } else { Estimate::alone(of.estimate) }));
             InputIndices {
                 input: input.name.clone(),
                 constant: order.groups() < 2,
-                rank: rank.map(|rank| Estimate::difference(few, rank)),
-                binned: Binned { estimate: Estimate::difference(few, estimate), bins },
+                rank,
+                binned: Binned { estimate: binned.unwrap_or(estimate), bins },
             }
         });
         inputs.collect()

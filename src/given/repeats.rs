@@ -1,10 +1,11 @@
 //! Detection of values repeated in other rows, a sign of designs whose rows are not independent.
 
-use super::GivenError;
 use super::order::Order;
+use super::shared::{around_base, close_pairs};
+use super::{Alike, GivenError};
 
-/// Columns with fewer values than this always contain repetitions.
-const MAX_LISTED_VALUES: usize = 10;
+/// Rows of the most frequent value up to which draws of dependent columns seldom agree in several of them.
+const MAX_ROWS_OF_A_VALUE: usize = 20;
 
 /// Refuses rows that repeat each other, one-at-a-time designs and pick-freeze designs. `inputs` are those that vary.
 ///
@@ -24,15 +25,24 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     let equal = Equal::new(&labels);
     let expected = all_pairs * tied.iter().map(|pairs| pairs / all_pairs).product::<f64>();
     let least_tied = tied.iter().copied().fold(f64::INFINITY, f64::min);
-    let excess = equal.pairs > 4.0 * expected + 10.0 && equal.pairs >= 0.5 * least_tied;
+    let most = inputs.iter().flat_map(|(_, order)| order.iter().map(<[usize]>::len)).max().unwrap_or(0);
+    let are_many = most <= MAX_ROWS_OF_A_VALUE.max(2 * inputs.len());
+    let excess = equal.pairs > 4.0 * expected + 10.0 && (are_many || equal.pairs >= 0.5 * least_tied);
     if excess && equal.repeats as f64 > 0.02 * rows as f64 {
         return Err(GivenError::RepeatedRows { repeated: equal.repeats, rows });
     }
     if let Some(pairs) = single_steps(&labels, &tied, all_pairs) {
-        return Err(GivenError::OneAtATime { pairs, rows });
+        return Err(GivenError::OneAtATime { pairs, how: Alike::Consecutive, rows });
     }
-    if joint_repeats(inputs, &labels, equal.pairs, rows) || same_multiplicities(inputs, rows) {
+    let pairs = close_pairs(&labels, are_many);
+    if same_multiplicities(inputs, rows) || pairs.is_some() && are_many && around_base(&labels).is_none() {
         return Err(GivenError::PickFreeze);
+    }
+    if let Some(pairs) = pairs {
+        return Err(GivenError::OneAtATime { pairs, how: Alike::Pairs, rows });
+    }
+    if let Some(pairs) = around_base(&labels) {
+        return Err(GivenError::OneAtATime { pairs, how: Alike::Base, rows });
     }
     Ok(())
 }
@@ -74,43 +84,11 @@ fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<u
         let others: f64 = agree.iter().enumerate().filter(|(i, _)| *i != j).map(|(_, p)| p).product();
         chance += (1.0 - of_input) * others;
     }
-    // A sorted table with few levels also has many such steps, but none of its columns then has many values.
-    let rich = labels.iter().all(|column| column.iter().max().is_some_and(|last| *last + 1 >= 4));
+    // A sorted table with few levels also has many such steps, but few of its columns then have many values.
+    let rich = labels.iter().filter(|column| column.iter().max().is_some_and(|last| *last + 1 >= 4));
+    let rich = 2 * rich.count() > labels.len();
     let enough = observed as f64 > 0.5 * rows as f64 && observed as f64 > 4.0 * chance * rows as f64;
     (enough && rich && labels.len() > 2).then_some(observed)
-}
-
-/// Returns whether equal values of two inputs coincide in too many pairs of rows: in a pick-freeze design of three
-/// inputs or more, A and AB_j share all but one.
-fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: f64, rows: usize) -> bool {
-    let many: Vec<usize> = (0..inputs.len()).filter(|&j| inputs[j].1.groups() >= MAX_LISTED_VALUES).collect();
-    if many.len() < 3 {
-        return false;
-    }
-    let all_pairs = rows as f64 * (rows as f64 - 1.0) / 2.0;
-    let (mut observed, mut expected, mut possible) = (0.0, 0.0, 0.0);
-    // Neighbouring columns suffice, closed to a ring: a design treats all equally.
-    for (place, &j) in many.iter().enumerate() {
-        let i = many[(place + 1) % many.len()];
-        let (a, b) = (inputs[i].1.tied_pairs() - equal_pairs, inputs[j].1.tied_pairs() - equal_pairs);
-        observed += jointly_tied(inputs[j].1, &labels[i]) - equal_pairs;
-        expected += a * b / all_pairs;
-        possible += (a * b).max(0.0).sqrt();
-    }
-    observed >= rows as f64 / 8.0 && observed > 4.0 * expected && observed > 0.15 * possible
-}
-
-/// Returns the number of pairs of rows that agree in both columns.
-fn jointly_tied(order: &Order, other: &[usize]) -> f64 {
-    let mut pairs = 0.0;
-    for group in order.iter().filter(|group| group.len() > 1) {
-        let mut values: Vec<usize> = group.iter().map(|&row| other[row]).collect();
-        values.sort_unstable();
-        for equal in values.chunk_by(|a, b| a == b) {
-            pairs += equal.len() as f64 * (equal.len() - 1) as f64 / 2.0;
-        }
-    }
-    pairs
 }
 
 /// Returns whether all inputs have the same two multiplicities equally often, or a single one, as the values of A and

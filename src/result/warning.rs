@@ -199,6 +199,19 @@ pub enum Warning {
     Irreproducible { differing: u64, rows: u64, cause: Irreproducible, has_noise: bool },
 }
 
+impl Warning {
+    /// Returns a warning if few of `values` values dominate their variance: n/(g2 + 3) of n rows with the excess kurtosis
+    /// g2 are their number if all others had no effect.
+    pub fn few_rows(values: u64, kurtosis: f64) -> Option<Self> {
+        /// Effective number of rows of a variance below which it counts as dominated by few.
+        const MIN_EFFECTIVE_ROWS: f64 = 40.0;
+        /// Excess kurtosis (that of an exponential distribution) up to which few rows only mean a small sample.
+        const MAX_KURTOSIS: f64 = 6.0;
+        let rows = values as f64 / (kurtosis + 3.0);
+        (kurtosis > MAX_KURTOSIS && rows < MIN_EFFECTIVE_ROWS).then_some(Self::FewRows { rows, values, kurtosis })
+    }
+}
+
 named! {
 /// The first-order or the total index.
 #[derive(Serialize, Deserialize)]

@@ -245,6 +245,34 @@ fn rows_without_an_output_are_refused_or_counted_as_failed() {
 }
 
 #[test]
+fn rows_in_the_order_in_which_runs_ended_are_sorted_by_their_number() {
+    let sampled = answered();
+    sampled.analyze("data.csv", &[]);
+    let whole = sampled.result("s");
+    let lines = sampled.lines("data.csv");
+    let count = lines.len() - 1;
+    let mut numbered: Vec<String> =
+        (0..count).map(|k| (k * 7 + 3) % count).map(|k| format!("{k},{}", lines[k + 1])).collect();
+    let design = sampled.name("design.csv");
+    let mut messages = messages!();
+    for name in ["run_id", ""] {
+        sampled.write("numbered.csv", &[vec![format!("{name},{}", lines[0])], numbered.clone()].concat());
+        let output = sampled.analyze("numbered.csv", &["--design", &design]);
+        messages.ended(name, 0, &output);
+        assert_eq!(sampled.result("s").outputs, whole.outputs);
+    }
+    // Rows that are missing leave out their base points; a number that does not fit is refused.
+    numbered.truncate(count - 3);
+    sampled.write("numbered.csv", &[vec![format!("run,{}", lines[0])], numbered.clone()].concat());
+    let output = sampled.analyze("numbered.csv", &["--design", &design]);
+    messages.ended("three rows less", 0, &output);
+    assert_eq!(sampled.result("s").outputs[0].runs_failed, 3);
+    numbered[5] = numbered[6].clone();
+    sampled.write("numbered.csv", &[vec![format!("run,{}", lines[0])], numbered].concat());
+    sampled.refused(&mut messages, "twice the same", ("numbered.csv", &["--design", &design]), "numbered.csv");
+}
+
+#[test]
 fn a_manifest_that_does_not_fit_is_refused() {
     let sampled = answered();
     let manifest = std::fs::read_to_string(sampled.path("data.csv.manifest.json")).unwrap();

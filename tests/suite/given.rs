@@ -188,6 +188,17 @@ fn independent_rows_are_not_refused() {
             }
         }
     }
+    // Dependent draws of few values, and draws that are often 0 together.
+    for seed in 0..20 {
+        let columns = random(7, 1000, seed);
+        let mixed = |j: usize| columns[j].iter().zip(&columns[6]).map(|(u, z)| (2.0 * (u + 0.7 * z)).floor()).collect();
+        assert_eq!(points_of((0..6).map(mixed).collect()), Ok(PointSet::Independent), "{seed}");
+        let often = |j: usize| {
+            let all = columns[j].iter().zip(&columns[6]).zip(&columns[(j + 1) % 5]);
+            all.map(|((u, z), v)| if *z < 0.2 || *v < 0.5 { 0.0 } else { *u }).collect()
+        };
+        assert_eq!(points_of((0..5).map(often).collect()), Ok(PointSet::Independent), "{seed}");
+    }
     // Sorted rows, and a coarse table of coins, are still independent draws.
     let mut sorted = random(2, 300, 5);
     sorted[0].sort_by(f64::total_cmp);
@@ -217,13 +228,97 @@ fn rows_of_designs_are_refused_by_name() {
     assert_eq!(points_of(repeated), Err(GivenError::RepeatedRows { repeated: 50, rows: 100 }));
 }
 
+/// Each input in turn over `count` random values, the others at 1/2; the last one of three values.
+fn sweeps(d: usize, count: usize, seed: u64) -> Columns {
+    let draws = &random(d, count, seed);
+    let row = |j: usize, k: usize, i: usize| if i == j { draws[j][k] } else { 0.5 };
+    let mut columns: Columns =
+        (0..d).map(|i| (0..d).flat_map(|j| (0..count).map(move |k| row(j, k, i))).collect()).collect();
+    columns[d - 1].iter_mut().for_each(|u| *u = (2.0 * *u).round());
+    columns
+}
+
+/// Every combination of -1 and 1 of all inputs but the last, which is the product of the first `factors`.
+fn fraction(d: usize, factors: usize) -> Columns {
+    let mut columns: Columns =
+        grid(d - 1, 2).into_iter().map(|c| c.into_iter().map(|u| 2.0 * u - 1.0).collect()).collect();
+    let product = |row: usize| columns[..factors].iter().map(|column| column[row]).product();
+    columns.push((0..1 << (d - 1)).map(product).collect());
+    columns
+}
+
+/// Normal numbers of which each is `phi` times the one before, plus noise.
+fn in_time(d: usize, n: usize, phi: f64, seed: u64) -> Columns {
+    let noise = |uniform: &f64| (uniform - 0.5) * (12.0 * (1.0 - phi * phi)).sqrt();
+    let mut columns = random(d, n, seed);
+    for column in &mut columns {
+        let mut x = 0.0;
+        for u in column {
+            x = phi * x + noise(u);
+            *u = x;
+        }
+    }
+    columns
+}
+
+#[test]
+fn rows_around_a_base_point_are_refused_in_any_order() {
+    let one_at_a_time = |columns: Columns| matches!(points_of(columns), Err(GivenError::OneAtATime { .. }));
+    for seed in 0..20 {
+        for (d, count) in [(4, 40), (6, 50), (12, 10)] {
+            assert!(one_at_a_time(sweeps(d, count, seed)), "{d} inputs");
+            assert!(one_at_a_time(shuffled(sweeps(d, count, seed), seed)), "{d} inputs");
+        }
+        // Sweeps among random rows, and trajectories of which one input has two values.
+        let mixed = sweeps(8, 60, seed).into_iter().zip(random(8, 320, seed + 100)).map(|(a, b)| [a, b].concat());
+        assert!(one_at_a_time(shuffled(mixed.collect(), seed)));
+        let mut morris = trajectories(10, 20, 4, seed);
+        morris[9].iter_mut().for_each(|level| *level = f64::from(u8::from(*level > 1.0)));
+        assert!(one_at_a_time(morris.clone()) && one_at_a_time(shuffled(morris, seed)));
+    }
+}
+
+#[test]
+fn inputs_that_are_products_of_others_are_named() {
+    for (d, factors) in [(6, 3), (7, 2), (7, 4)] {
+        let columns = shuffled(fraction(d, factors), 1);
+        let Err(GivenError::Alias { others, .. }) = points_of(columns.clone()) else { panic!("{d} inputs") };
+        assert_eq!(others.matches('`').count(), 2 * factors, "{others}");
+        assert!(points_of(columns[..d - 1].to_vec()).is_ok());
+    }
+}
+
+#[test]
+fn rows_that_follow_each_other_have_no_intervals() {
+    for (phi, seeds) in [(0.9, 0..20), (0.98, 20..40)] {
+        for seed in seeds {
+            let columns = in_time(4, 1000, phi, seed);
+            let y = (0..1000).map(|k| columns[0][k] + 0.5 * columns[1][k] + columns[3][k]).collect();
+            let result = analysed(columns[..3].to_vec(), Column { name: "y".to_owned(), values: y }).unwrap();
+            let rows = result.effective_rows.unwrap();
+            assert!(rows < 3000.0 * (1.0 - phi), "{rows}");
+            assert_eq!(result.points, PointSet::Independent);
+            assert!(indices(&result).iter().all(|index| index.leading().interval.is_none()));
+        }
+    }
+}
+
 #[test]
 fn a_design_that_lost_rows_is_still_known() {
-    let columns: Columns = saltelli(4, 64, Sampler::Sobol, 4)
-        .into_iter()
-        .map(|column| column.into_iter().enumerate().filter(|(k, _)| k % 7 != 3).map(|(_, u)| u).collect())
-        .collect();
-    assert_eq!(points_of(columns), Err(GivenError::PickFreeze));
+    let without = |columns: Columns, lost: fn(usize) -> bool| -> Columns {
+        let kept =
+            |column: Vec<f64>| column.into_iter().enumerate().filter(|(k, _)| !lost(*k)).map(|(_, u)| u).collect();
+        columns.into_iter().map(kept).collect()
+    };
+    for d in [3, 4, 8] {
+        let columns = saltelli(d, 64, Sampler::Sobol, 4);
+        for lost in [(|k| k % 7 == 3) as fn(usize) -> bool, |k| [7, 8, 190].contains(&k)] {
+            let result = points_of(shuffled(without(columns.clone(), lost), 2));
+            assert_eq!(result, Err(GivenError::PickFreeze), "{d} inputs");
+        }
+        let twice: Columns = columns.iter().map(|column| [column.as_slice(), &column[..100]].concat()).collect();
+        assert!(matches!(points_of(twice), Err(GivenError::RepeatedRows { repeated: 100, .. })), "{d} inputs");
+    }
 }
 
 #[test]

@@ -108,7 +108,7 @@ fn faults_are_refused_with_their_place() {
         (spoilt(7, "0.5,,1"), "table.csv: line 7: column 2 (`x2`): "),
         (spoilt(9, "0.5,red,1"), "line 9: column 2 (`x2`): "),
         (spoilt(9, "0.5,1"), "line 9: "),
-        ("x,y\n1,2\n".to_owned(), ""),
+        ("x,y\n1.5,2\n".to_owned(), ""),
     ] {
         let run = Run::of(&table, &["--outputs", "y"]);
         run.refused(&mut messages, place);
@@ -133,6 +133,71 @@ fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
     assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");
     let design = table(&saltelli(3, 64, apportion::design::Sampler::Sobol, 1));
     Run::of(&design, &["--outputs", "y"]).refused(&mut messages, "a design of Saltelli");
+}
+
+#[test]
+fn replicates_are_averaged_and_series_are_not_inputs() {
+    let columns = random(3, 500, 4);
+    let row = |k: usize, number: usize| {
+        let [a, b, noise] = [columns[0][k], columns[1][k], columns[2][(5 * k + number) % 500]];
+        format!("{a},{b},{number},{}\n", 3.0 * a + b + noise)
+    };
+    let rows: String = (0..100).flat_map(|k| (0..5).map(move |number| (k, number))).map(|(k, n)| row(k, n)).collect();
+    let run = Run::of(&format!("a,b,seed,y\n{rows}"), &["--outputs", "y"]);
+    let result = run.result();
+    assert_eq!((result.table.rows, result.inputs.len()), (100, 2));
+    let mut messages = messages!();
+    messages.add("replicates", &result.warnings[0]);
+    Run::of(&format!("a,b,t,y\n{rows}"), &["--outputs", "y"]).refused(&mut messages, "a series");
+}
+
+#[test]
+fn a_number_of_the_run_is_no_input() {
+    let content = table(&random(2, 100, 2));
+    let plain = Run::of(&content, &["--outputs", "y"]).result();
+    let mut lines: Vec<String> = content.lines().skip(1).enumerate().map(|(k, line)| format!("{k},{line}\n")).collect();
+    lines.sort_by_key(|line| line.len() + line.bytes().map(usize::from).sum::<usize>() % 7);
+    let mut messages = messages!();
+    for name in ["", "run_id", "%eval_id"] {
+        let numbered = format!("{name},x1,x2,y\n{}", lines.concat());
+        let result = Run::of(&numbered, &["--outputs", "y"]).result();
+        assert_eq!(result.outputs, plain.outputs);
+        messages.add(name, &result.warnings[0]);
+    }
+    let only: String = (0..50).map(|k| format!("{},{}\n", k * 7 % 50, k % 13)).collect();
+    Run::of(&format!("run,y\n{only}"), &["--outputs", "y"]).refused(&mut messages, "nothing else");
+}
+
+#[test]
+fn values_that_may_mark_failed_runs_are_one_warning() {
+    let columns = random(3, 1000, 6);
+    let line = |k: usize, code: f64| {
+        let [a, b, c] = [columns[0][k], columns[1][k], columns[2][k]];
+        let (y, z) = if c < 0.03 { (code, code) } else { (3.0 * a + b, a * b) };
+        format!("{a},{b},{y},{z}\n")
+    };
+    let mut messages = messages!();
+    for code in [-99.0, -1.0, 1.7] {
+        let rows: String = (0..1000).map(|k| line(k, code)).collect();
+        let result = Run::of(&format!("a,b,y,z\n{rows}"), &["--outputs", "y,z"]).result();
+        messages.add(&code.to_string(), &result.warnings.join("\n"));
+    }
+    // A limit at which an output is cut is none.
+    let cut: String = (0..1000)
+        .map(|k| format!("{},{},{}\n", columns[0][k], columns[1][k], (columns[0][k] - 0.2).max(0.0)))
+        .collect();
+    assert!(Run::of(&format!("a,b,y\n{cut}"), &["--outputs", "y"]).result().warnings.is_empty());
+    // Few rows with all of the variance.
+    let heavy: String =
+        (0..1000).map(|k| format!("{},{},{}\n", columns[0][k], columns[1][k], columns[0][k].powi(-2))).collect();
+    messages
+        .add("a heavy tail", &Run::of(&format!("a,b,y\n{heavy}"), &["--outputs", "y"]).result().outputs[0].warnings[0]);
+    // Every word for no number is a missing value.
+    let words = ["inf", "-Infinity", "1.#INF", "-1.#IND", "nan(ind)", "NaNQ"];
+    let with_words = words.iter().map(|word| format!("0.1,0.2,{word}\n")).collect::<String>();
+    let result = Run::of(&format!("a,b,y\n{cut}{with_words}"), &["--outputs", "y", "--drop-missing"]).result();
+    assert_eq!(result.table.rows_dropped, 6);
+    Run::of(&format!("a,b,y\n{cut}{with_words}"), &["--outputs", "y"]).refused(&mut messages, "an infinity");
 }
 
 #[test]

@@ -40,6 +40,9 @@ pub enum SurrogateRefusal {
         /// The pair.
         inputs: (String, String),
     },
+    /// Rows that follow each other in time.
+    #[error("the rows follow each other in time: held-out rows are like their neighbours, and do not show the error")]
+    InTime,
     /// The numbers of distributions and inputs differ.
     #[error("{distributions} distributions for {inputs} inputs")]
     Distributions {
@@ -126,6 +129,9 @@ pub fn surrogate_indices(
     indices: &GivenIndices,
     distributions: Option<&[Distribution]>,
 ) -> Result<Surrogates, SurrogateRefusal> {
+    if indices.effective_rows.is_some() {
+        return Err(SurrogateRefusal::InTime);
+    }
     if let Some(dependent) = indices.dependence.as_ref().and_then(Dependence::dependent) {
         return Err(SurrogateRefusal::Dependent { inputs: dependent.clone() });
     }

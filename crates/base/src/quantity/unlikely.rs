@@ -15,6 +15,14 @@ const FAR: f64 = 1e3;
 /// Minimum number of different values of the others: fewer are steps, of which one may be large.
 const MIN_VALUES: usize = 10;
 
+/// Smallest number of times that a value recurs among values that differ, and the part of the values that it is, from
+/// which it may be a code.
+const MIN_COUNT: usize = 5;
+const MIN_SHARE: f64 = 0.002;
+
+/// Distance from the range of the others, in its width, up to which a value may be the limit at which outputs are cut.
+const CUT: f64 = 0.02;
+
 /// A value that may not come from the model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -33,11 +41,12 @@ pub struct Unlikely {
 
 impl Unlikely {
     /// Returns the smallest or largest of the finite `values`, if it is such a code and stands out or is repeated
-    /// among values that differ, or if it is far from all others.
+    /// among values that differ, or if it is far from all others; or any value that occurs many times among values that
+    /// all differ, unless it is a limit of their range.
     pub fn find(values: &[f64]) -> Option<Self> {
         let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         let (low, high) = range(&finite, None);
-        [low, high].into_iter().find_map(|value| {
+        let extreme = [low, high].into_iter().find_map(|value| {
             let others = range(&finite, Some(value));
             let width = others.1 - others.0;
             let gap = (value - others.0).abs().min((value - others.1).abs());
@@ -54,7 +63,24 @@ impl Unlikely {
             let first = values.iter().position(|other| *other == value)?;
             let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
             is_unlikely.then_some(Self { value, count, first, of, others })
-        })
+        });
+        extreme.or_else(|| Self::repeated(values, finite))
+    }
+
+    /// Returns the value of `finite` ones that alone occurs many times.
+    fn repeated(values: &[f64], mut finite: Vec<f64>) -> Option<Self> {
+        finite.sort_unstable_by(f64::total_cmp);
+        let runs: Vec<&[f64]> = finite.chunk_by(|a, b| a == b).collect();
+        let longest = runs.iter().max_by_key(|run| run.len())?;
+        let (value, count, of) = (longest[0], longest.len(), finite.len());
+        let others = range(&finite, Some(value));
+        let width = others.1 - others.0;
+        let beyond = (others.0 - value).max(value - others.1);
+        let is_limit = (-0.0..=CUT * width).contains(&beyond);
+        let is_many = count >= MIN_COUNT.max((MIN_SHARE * of as f64) as usize) && 2 * count <= of;
+        let all_differ = runs.len() >= MIN_VALUES && runs.len() - 1 == of - count;
+        let first = values.iter().position(|other| *other == value)?;
+        (is_many && all_differ && !is_limit).then_some(Self { value, count, first, of, others })
     }
 
     /// Describes it in a table; `row` is the row of its first occurrence, from 1.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use apportion::given::{Column, analyse, measures, surrogate_indices};
+use apportion::given::{Column, analyse, average_replicates, measures, surrogate_indices};
 use apportion::{Distribution, Study};
 use apportion_base::digest::sha256;
 use apportion_base::files::read_whole;
@@ -65,12 +65,14 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
     let sha256 = sha256(&bytes);
     let mut rows = table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).in_file(path)?;
-    let Table { inputs, outputs, dropped, skipped } = read_table(rows.as_mut(), &selection).in_file(path)?;
+    let Table { mut inputs, mut outputs, dropped, skipped, counter } =
+        read_table(rows.as_mut(), &selection).in_file(path)?;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(path, &names, rows.is_unended());
     let name = stem(path);
     let files = study.iter().flat_map(Study::files).chain([path.to_owned()]).collect();
     let artefacts = arguments.output.artefacts(&name, files);
+    let replicates = average_replicates(&mut inputs, &mut outputs).in_file(path)?;
     let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
     let surrogates = if arguments.surrogate {
         let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
@@ -84,7 +86,9 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         seed: arguments.seed,
     };
-    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).without(&skipped);
+    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts)
+        .after(replicates.as_ref(), counter.as_deref())
+        .without(&skipped);
     if arguments.measures {
         result = result.with_measures(&measures(&inputs, &outputs, &indices, arguments.seed));
     }

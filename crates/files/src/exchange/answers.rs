@@ -10,6 +10,7 @@ use apportion_base::digest::Sha256;
 use apportion_base::names::{refused_output_name, shown};
 use apportion_base::quantity::{Unit, is_same};
 
+use super::counter::{is_called_counter, read_numbered};
 use super::design_rows::{add_rows, each_block, factor_column};
 use super::error::{TableError, refused};
 use super::manifest::Manifest;
@@ -54,15 +55,28 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let (space, design, model) = (study.space(), study.design(), study.model());
     let store = Store::new(model.as_ref());
     let wanted = columns.wanted(space);
+    let numbered = read_numbered(reader, &wanted, design.rows())?;
+    let is_complete = numbered.as_ref().is_none_or(|rows| rows.missing == 0);
+    let missing = if is_complete { request.missing } else { Missing::Drop };
     let (mut cells, mut digest, mut row) = (vec![Vec::new(); wanted.len()], Sha256::default(), 0);
     each_block(space, design, |replicate, rows, points| {
         add_rows(&mut digest, points);
         let expected = (rows.end - rows.start) as usize;
-        let count = reader.read(&wanted, expected, &mut cells)?;
+        let count = match &numbered {
+            None => reader.read(&wanted, expected, &mut cells)?,
+            Some(all) => {
+                let rows = row as usize..row as usize + expected;
+                cells = all.columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
+                expected
+            }
+        };
         let (answers, points_in_file) = cells.split_at(columns.outputs.len());
         for place in 0..count {
             for ((_, factor), values) in columns.factors.iter().zip(points_in_file) {
-                compare(&space.factors()[*factor], values[place], points[*factor][place], row + place as u64 + 1)?;
+                let is_there = is_complete || !values[place].is_nan();
+                if is_there {
+                    compare(&space.factors()[*factor], values[place], points[*factor][place], row + place as u64 + 1)?;
+                }
             }
         }
         row += count as u64;
@@ -70,20 +84,29 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
             return refused(format!("the file has {row} rows, but the design has {}", design.rows()));
         }
         let mut block = RowBlock { replicate, first: rows.start, ..RowBlock::default() };
-        fill(&mut block, model.outputs(), answers, request.missing, row - count as u64)?;
+        fill(&mut block, model.outputs(), answers, missing, row - count as u64)?;
         store.insert(&block);
         Ok(())
     })?;
-    if reader.read(&wanted, 1, &mut cells)? > 0 {
+    if numbered.is_none() && reader.read(&wanted, 1, &mut cells)? > 0 {
         return refused(format!("the file has more rows than the design, which has {}", design.rows()));
     }
     // Values that agree to ten digits may still belong to another version: those of the study are used.
     request.manifest.check_points(&digest.finish())?;
     let compared = columns.factors.iter().map(|&(_, factor)| space.factors()[factor].name.clone()).collect();
-    if model.flags().iter().any(|flag| !flag.warns) && !study.subject().is_external() {
-        let note = "the file has no validity flags of the model: none are counted".to_owned();
-        drop(model);
-        study.note(note);
+    let flags = model.flags().iter().any(|flag| !flag.warns) && !study.subject().is_external();
+    drop(model);
+    if let Some(rows) = numbered {
+        study.note(format!("the rows of the file are in the order of its column `{}`", rows.name));
+        if rows.missing > 0 {
+            study.note(format!(
+                "{} rows of the design are not in the file: they count as runs that failed",
+                rows.missing
+            ));
+        }
+    }
+    if flags {
+        study.note("the file has no validity flags of the model: none are counted".to_owned());
     }
     Ok(Answers { study, store, compared })
 }
@@ -162,7 +185,7 @@ impl Columns {
         }
         let outputs = match request.outputs {
             [] if study.subject().is_external() || stated.iter().all(|name| others.contains(name)) => stated,
-            [] => others,
+            [] => others.into_iter().filter(|name| !is_called_counter(name)).collect(),
             outputs => outputs.to_vec(),
         };
         let outputs = output_columns(names, &outputs, &|name| factors.iter().any(|factor| factor.name == name))?;

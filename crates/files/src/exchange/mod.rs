@@ -5,6 +5,7 @@
 //! is the other direction: it evaluates the model of a study at given points.
 
 mod answers;
+mod counter;
 mod design_rows;
 mod error;
 mod evaluate;

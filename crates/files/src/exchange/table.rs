@@ -3,6 +3,7 @@
 use apportion::given::{Column, TextColumn};
 use apportion_base::names::{did_you_mean, nearest};
 
+use super::counter::{is_called_counter, places as places_of_rows};
 use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 
@@ -49,7 +50,12 @@ pub struct Table {
     pub dropped: Option<DroppedRows>,
     /// The text columns, which are not inputs.
     pub skipped: Vec<TextColumn>,
+    /// The column that numbers the rows, which is no input either: the rows are in its order.
+    pub counter: Option<String>,
 }
+
+/// Rows from which numbers from 0 or 1 without repetition are no values by chance.
+const MIN_NUMBERED: usize = 30;
 
 /// Rows read at a time.
 const BLOCK: usize = 1 << 12;
@@ -113,15 +119,14 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
                 continue;
             };
             let place = place_in_words(line, number);
-            // An infinity anywhere in the row is not a missing value.
-            if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
-                let (column, value) = (chosen[at], cells[at][row].to_string());
-                return Err(not_a_number(&place, column + 1, &names[column], &value, defaults.contains(&column)));
-            }
             if selection.missing == Missing::Refuse {
                 let (column, name) = (chosen[first] + 1, &names[chosen[first]]);
+                let what = match cells[first][row] {
+                    value if value.is_nan() => "the value is missing".to_owned(),
+                    value => format!("{value} is no finite number"),
+                };
                 return refused(format!(
-                    "{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
+                    "{place}: column {column} (`{name}`): {what}; --drop-missing leaves such rows out"
                 ));
             }
             let first_line = line.unwrap_or(number);
@@ -130,7 +135,40 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         before += count as u64;
     }
     let outputs = columns.split_off(inputs.len());
-    Ok(Table { inputs: columns, outputs, dropped, skipped })
+    let mut table = Table { inputs: columns, outputs, dropped, skipped, counter: None };
+    if selection.inputs.is_empty() {
+        table.sort_by_counter(before)?;
+    }
+    Ok(table)
+}
+
+impl Table {
+    /// Removes an input that numbers the `rows` rows of the file, and puts the rows in its order.
+    fn sort_by_counter(&mut self, rows: u64) -> Result<(), TableError> {
+        let of_inputs = self.inputs.iter().map(|input| places_of_rows(&input.values, rows));
+        let of_inputs: Vec<Option<Vec<usize>>> = of_inputs.collect();
+        let is_only_kind = of_inputs.iter().all(Option::is_some) && self.inputs.len() > 1;
+        let can_be_one = of_inputs.iter().flatten().any(|places| places.len() >= MIN_NUMBERED) && !is_only_kind;
+        let found = (0..self.inputs.len())
+            .find(|place| of_inputs[*place].is_some() && (can_be_one || is_called_counter(&self.inputs[*place].name)));
+        let Some((place, places)) = found.and_then(|place| Some((place, of_inputs[place].as_ref()?))) else {
+            return Ok(());
+        };
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_unstable_by_key(|row| places[*row]);
+        let name = self.inputs.remove(place).name;
+        if self.inputs.is_empty() {
+            return refused(format!(
+                "the only input is `{name}`, which numbers the rows: add the columns of the inputs, or analyse the outputs of a \
+                 design with `apportion analyze --design`"
+            ));
+        }
+        for column in self.inputs.iter_mut().chain(&mut self.outputs) {
+            column.values = order.iter().map(|row| column.values[*row]).collect();
+        }
+        self.counter = Some(name);
+        Ok(())
+    }
 }
 
 /// Returns the error of a cell; `is_default` says that its column is an input because no inputs are named.

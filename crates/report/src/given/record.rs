@@ -1,8 +1,8 @@
 //! The result file of given data.
 
 use apportion::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, OutputIndices, PointSet, SurrogateOutput,
-    SurrogateRefusal, Surrogates, TextColumn,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, OutputIndices, PointSet, Replicates,
+    SurrogateOutput, SurrogateRefusal, Surrogates, TextColumn,
 };
 use apportion::result::OutputDistribution;
 use apportion::uncertainty::Estimate;
@@ -71,6 +71,17 @@ pub struct TableRecord {
 }
 
 impl GivenFile {
+    /// Adds a note on what was done with the table before it was analysed.
+    #[must_use]
+    pub fn after(mut self, replicates: Option<&Replicates>, counter: Option<&str>) -> Self {
+        let counter = counter.map(|name| {
+            format!("the column `{name}` numbers the rows: it is no input, and the rows were put in its order")
+        });
+        let replicates = replicates.map(|of| sentences::replicates(of, &self.outputs));
+        self.warnings.splice(0..0, counter.into_iter().chain(replicates));
+        self
+    }
+
     /// Adds a note that these columns of the table hold text, as the first one.
     #[must_use]
     pub fn without(mut self, columns: &[TextColumn]) -> Self {
@@ -175,7 +186,7 @@ pub fn build_given(
     outputs: &[Column],
     facts: &GivenFacts,
 ) -> GivenFile {
-    let fitted = surrogates.and_then(|result| result.as_ref().ok());
+    let (columns, fitted) = (outputs, surrogates.and_then(|result| result.as_ref().ok()));
     let mut records = Vec::new();
     for (number, (indices, column)) in indices.outputs.iter().zip(outputs).enumerate() {
         let surrogate = fitted.and_then(|all| all.outputs[number].as_ref().ok());
@@ -207,7 +218,7 @@ pub fn build_given(
         dependence: indices.dependence.clone(),
         surrogate: surrogates.map(surrogate_record),
         outputs,
-        warnings: inputs.iter().filter_map(unlikely).chain(warnings).collect(),
+        warnings: inputs.iter().filter_map(unlikely).chain(sentences::codes(columns)).chain(warnings).collect(),
         notes: sentences::notes(serves),
     }
 }
@@ -237,14 +248,16 @@ fn input_record(column: &Column) -> GivenInputRecord {
 
 fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
     let indices = output.indices.as_ref();
+    let distribution = OutputDistribution::from_values(&column.values, &Unit::dimensionless());
+    let few_rows = distribution.as_ref().and_then(sentences::few_rows);
     GivenOutputRecord {
         name: output.name.clone(),
-        distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
+        distribution,
         indices: indices.ok().cloned(),
         sum_first_order: indices.ok().map(|indices| indices.iter().map(|index| index.leading().estimate).sum()),
         surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
         measures: None,
         reason: indices.err().map(ToString::to_string),
-        warnings: unlikely(column).into_iter().chain(sentences::output_warnings(output, surrogate)).collect(),
+        warnings: few_rows.into_iter().chain(sentences::output_warnings(output, surrogate)).collect(),
     }
 }

@@ -1,8 +1,11 @@
 //! The sentences of a result from given data.
 
-use apportion::given::{GivenIndices, OutputIndices, PointSet, SurrogateOutput};
+use apportion::given::{Column, GivenIndices, OutputIndices, PointSet, Replicates, SurrogateOutput};
+use apportion::result::{OutputDistribution, Warning};
+use apportion_base::quantity::Unlikely;
+use apportion_base::text::listed;
 
-use super::SurrogateResult;
+use super::{GivenOutputRecord, SurrogateResult};
 use crate::format::fixed;
 
 pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
@@ -29,7 +32,7 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
 
 pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<String> {
     let mut parts = Vec::new();
-    if indices.points == PointSet::Independent {
+    if indices.points == PointSet::Independent && indices.effective_rows.is_none() {
         parts.push("95 %, asymptotic, for independent rows");
     }
     if by_surrogate {
@@ -91,7 +94,14 @@ pub(super) fn warnings(
     }
     if let Some(reason) = indices.points.reason() {
         warnings.push(format!(
-            "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins are valid"
+            "no estimate by ranks, which does not converge here, and no intervals: {reason}. In many dimensions the estimates by bins may take an input for a combination of others"
+        ));
+    }
+    if let Some(rows) = indices.effective_rows {
+        warnings.push(format!(
+            "the rows follow each other in time: an input and an output go on from row to row, so that the {} rows are worth \
+             about {rows:.0} independent ones; there are no intervals",
+            indices.rows
         ));
     }
     if let Some(dependence) = &indices.dependence {
@@ -119,6 +129,24 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
             percent(SurrogateOutput::MIN_EXPLAINED)
         ));
     }
+    if let Some(surrogate) = surrogate.filter(|of| of.serves && of.sum_first_order < 0.01 && of.indices.len() > 1) {
+        warnings.push(format!(
+            "by the surrogate no input has an effect of its own, and all of the variance ({} of it explained) is due to \
+             interactions: this is rare; check how the rows were chosen",
+            percent(surrogate.explained)
+        ));
+    }
+    let all = output.indices.as_deref().unwrap_or_default();
+    let leading = all.iter().map(|index| index.leading());
+    let sum: f64 = leading.clone().map(|of| of.estimate).sum();
+    let error =
+        leading.map(|of| of.interval.map_or(0.0, |interval| interval.width() / 2.0).powi(2)).sum::<f64>().sqrt();
+    if sum > 1.05 + 1.5 * error {
+        warnings.push(format!(
+            "the first-order indices sum to {sum:.2}, which independent inputs cannot: the rows were not drawn at random, or \
+             the inputs depend on each other; the indices are too large"
+        ));
+    }
     for index in output.indices.iter().flatten() {
         if index.constant {
             warnings.push(format!("the input `{}` has one value only: its index is 0 by definition", index.input));
@@ -132,6 +160,47 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
         }
     }
     warnings
+}
+
+/// Returns a warning if few rows carry the variance of an output.
+pub(super) fn few_rows(of: &OutputDistribution) -> Option<String> {
+    let Warning::FewRows { rows, values, kurtosis } = Warning::few_rows(of.count, of.excess_kurtosis?)? else {
+        return None;
+    };
+    Some(format!(
+        "few rows determine the variance, as if {rows:.0} of the {values} did (excess kurtosis {kurtosis:.0}): look at these rows \
+         (runs that diverged?); more of their kind may be missing, and intervals may be too short; the logarithm of the \
+         output may work better"
+    ))
+}
+
+/// Returns the warnings of values of outputs that may mark failed runs: outputs with the same one share a sentence.
+pub(super) fn codes(outputs: &[Column]) -> Vec<String> {
+    let found: Vec<(&Column, Unlikely)> =
+        outputs.iter().filter_map(|output| Some((output, Unlikely::find(&output.values)?))).collect();
+    let groups = found.chunk_by(|(_, a), (_, b)| (a.value, a.count, a.first) == (b.value, b.count, b.first));
+    let sentence = |group: &[(&Column, Unlikely)]| {
+        let names: Vec<String> = group.iter().map(|(output, _)| output.name.clone()).collect();
+        let (unlikely, value) = (&group[0].1, group[0].1.value);
+        format!("{}: {} (--missing-value={value:?})", listed(&names), unlikely.in_table(unlikely.first + 1))
+    };
+    groups.map(sentence).collect()
+}
+
+/// Describes replicates that were averaged.
+pub(super) fn replicates(of: &Replicates, outputs: &[GivenOutputRecord]) -> String {
+    let scatter = of
+        .scatter
+        .iter()
+        .zip(outputs)
+        .map(|(share, output)| format!("{} of the variance of {}", percent(*share), output.name));
+    format!(
+        "rows that differ only in `{}` are replicates and were averaged, which leaves {} rows: the indices are those of the mean. \
+         Before, the scatter of replicates was {}",
+        of.seed,
+        of.rows,
+        listed(&scatter.collect::<Vec<_>>())
+    )
 }
 
 /// Formats a share in percent.

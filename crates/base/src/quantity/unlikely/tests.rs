@@ -14,6 +14,8 @@ fn codes_and_slips_are_found() {
     let mut one = with(0.5);
     one[77] = 2e4;
     assert_eq!(Unlikely::find(&one).map(|found| (found.count, found.first)), Some((1, 77)));
+    // Any value that recurs where all others differ.
+    assert_eq!(Unlikely::find(&with(0.5)).map(|found| found.count), Some(10));
     // A repeated code within the range of the other values is also found.
     let wide: Vec<f64> = with(0.5).iter().map(|y| if *y == 0.5 { -999.0 } else { 1998.0 * y - 998.0 }).collect();
     assert_eq!(Unlikely::find(&wide).map(|found| found.count), Some(10));
@@ -24,7 +26,8 @@ fn values_of_models_are_not() {
     let switch: Vec<f64> = (0..200).map(|k| f64::from(u8::from(k % 50 == 0))).collect();
     let counts: Vec<f64> = (0..10_000).map(f64::from).collect();
     let tail: Vec<f64> = (1..500).map(|k| (1000.0 / f64::from(k)).powi(2)).collect();
-    for values in [switch, counts, tail, with(0.5), vec![-999.0; 40], Vec::new()] {
+    let cut: Vec<f64> = with(0.5).iter().map(|y| y.max(0.2)).collect();
+    for values in [switch, counts, tail, cut, vec![-999.0; 40], Vec::new()] {
         assert_eq!(Unlikely::find(&values), None);
     }
 }

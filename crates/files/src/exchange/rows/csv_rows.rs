@@ -93,7 +93,11 @@ impl CsvRows {
 
     /// Sets the names of all columns.
     fn set_names(&mut self, names: &[String]) -> Result<(), TableError> {
-        let names = expanded(names);
+        let mut names = expanded(names);
+        // The index of pandas and R has no name.
+        if names.len() > 1 && names[0].is_empty() && !names[1..].iter().any(|name| name.is_empty() || name == "index") {
+            "index".clone_into(&mut names[0]);
+        }
         check_names(&names)?;
         (self.width, self.names) = (names.len(), Some(names));
         Ok(())

@@ -99,7 +99,7 @@ impl ColumnKind {
         if let Some(value) = self.value_of(cell) {
             return Some(value);
         }
-        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) || is_error_word(cell) {
+        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) || is_error_word(cell) || is_printed_nan(cell) {
             return Some(f64::NAN);
         }
         match cell {
@@ -130,6 +130,12 @@ pub(crate) fn number(cell: &str) -> Option<f64> {
 fn is_error_word(cell: &str) -> bool {
     const WORDS: [&str; 7] = ["#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"];
     WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
+}
+
+/// Returns whether a program of C, Fortran or Windows prints no number like this: `1.#QNAN`, `-1.#IND`, `nan(ind)`, `NaNQ`.
+fn is_printed_nan(cell: &str) -> bool {
+    let cell = cell.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    cell.starts_with("1.#") || cell.starts_with("nan(") || ["nanq", "nans", "nan0"].contains(&&*cell)
 }
 
 /// Reads a table block by block.
@@ -212,6 +218,9 @@ fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<d
         }
         [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => {
             return refused("it is a workbook or an archive (.xlsx, .xls, .ods, .zip, .npz): save the table as CSV");
+        }
+        [b'M', b'A', b'T', b'L', b'A', b'B', ..] => {
+            return refused("it is a file of MATLAB: save the table as CSV (`writematrix`)");
         }
         [0x1f, 0x8b, ..] => Box::new(MultiGzDecoder::new(all)),
         _ => all,
@@ -298,9 +307,7 @@ fn check_names(names: &[String]) -> Result<(), TableError> {
     for (place, name) in names.iter().enumerate() {
         let column = place + 1;
         if name.is_empty() {
-            let index = "if it is the index that pandas writes, leave it out (index=False)";
-            let advice = if column == 1 { format!(": {index}") } else { String::new() };
-            return refused(format!("column {column} has no name{advice}"));
+            return refused(format!("column {column} has no name"));
         }
         if let Some(expected) = refused_name(name) {
             return refused(format!("the name of column {column}: expected {expected}"));

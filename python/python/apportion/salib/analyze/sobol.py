@@ -12,6 +12,7 @@ from ... import _engine
 from ..._checks import whole
 from ..._indices import needed
 from ..._tables import numbers
+from .._layout import rows_of
 from .._problem import Seed, generator, members_of
 from ..util import ResultDict, confidence
 
@@ -49,6 +50,7 @@ def analyze(
     n_processors: int | None = None,
     keep_resamples: bool = False,
     seed: Seed = None,
+    X: Any = None,
 ) -> Sensitivities:
     """Indices by SALib's estimators from the outputs `Y`, (rows,), at points of `sample.sobol`, or of SALib's own.
 
@@ -56,7 +58,8 @@ def analyze(
     the same as SALib's with the same `seed` above 0, times the quantile of the normal distribution at `conf_level`; NaN of fewer
     than 2. On Sobol' points they are too wide. `keep_resamples` adds S1_conf_all and ST_conf_all, (num_resamples, D).
     `parallel` and `n_processors` have no effect. What is not finite in `Y` leaves its base point out,
-    with a warning.
+    with a warning. Points `X`, (rows, factors), are checked if given: base points that lack a row or repeat an earlier one are
+    left out, and correlated or unequal matrices A and B are refused.
     A `StudyError` says that the number of outputs is wrong, or that they do not vary.
     """
     num_resamples = whole("num_resamples", num_resamples, 0, _MAX_RESAMPLES)
@@ -65,11 +68,11 @@ def analyze(
     d = len(members)
     y = numbers(Y, "the outputs are").ravel()
     step = (2 if calc_second_order else 1) * d + 2
-    if y.size < 2 * step or y.size % step:
+    if X is None and (y.size < 2 * step or y.size % step):
         raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
     if unlikely := _engine.unlikely(y):
         warnings.warn(unlikely, stacklevel=2)
-    rows = y.reshape(-1, step)
+    rows = y.reshape(-1, step) if X is None else rows_of(members_of(problem), list(problem["names"]), X, y, calc_second_order)
     n, rows = len(rows), rows[np.isfinite(rows).all(axis=1)]
     if len(rows) < n:
         warnings.warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out", stacklevel=2)
