@@ -1,16 +1,24 @@
 //! Expansions in orthonormal terms.
 
+use std::sync::Arc;
+
 use super::net::Net;
 use super::terms::Term;
 use apportion_base::sum::add_scaled;
 
 /// An expansion in orthonormal terms.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Expansion {
-    /// The terms.
-    pub terms: Vec<Term>,
+    /// The terms, which expansions of many outputs share.
+    pub terms: Arc<[Term]>,
     /// Their coefficients.
     pub coefficients: Vec<f64>,
+}
+
+impl Default for Expansion {
+    fn default() -> Self {
+        Self { terms: [].into(), coefficients: Vec::new() }
+    }
 }
 
 impl Expansion {
@@ -27,7 +35,7 @@ impl Expansion {
 
 /// Returns the largest degree of a factor in the terms of some expansions.
 pub(crate) fn degree<'a>(expansions: impl IntoIterator<Item = &'a Expansion>) -> usize {
-    let terms = expansions.into_iter().flat_map(|of| &of.terms);
+    let terms = expansions.into_iter().flat_map(|of| of.terms.iter());
     terms.flatten().map(|(_, degree)| *degree).max().unwrap_or(0)
 }
 

@@ -15,11 +15,9 @@ use thiserror::Error;
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
-use crate::surrogate::Expansion;
-use crate::surrogate::NamedTerm;
 use crate::surrogate::chaos::{Chaos, Factor, degree_at, folds_at};
 use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::{Effects, leading_terms};
+use crate::surrogate::{Effects, Expansion, NamedTerm, Term, leading_terms};
 use crate::uncertainty::Estimate;
 
 /// Maximum number of rows that are used.
@@ -222,8 +220,8 @@ impl Job<'_> {
         // Steps have no tails.
         let factors = &chaos.basis().factors;
         let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));
-        let (terms, coefficients) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
-        let expansion = Expansion { terms, coefficients };
+        let (terms, coefficients): (Vec<Term>, Vec<f64>) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
+        let expansion = Expansion { terms: terms.into(), coefficients };
         let effects = Effects { swaps: (0..families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
         let expansions = [expansion];
         let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, &effects);

@@ -78,8 +78,8 @@ impl CrossFits {
         let g = self.listed.combined(coefficients);
         let left = prior.basis.without(part).0.into_iter().map(|row| prior.y[row] - g[row]);
         sums.insert(Term::new(), apportion_base::sum::mean(&left.collect::<Vec<f64>>()));
-        let (terms, coefficients) = sums.into_iter().unzip();
-        Expansion { terms, coefficients }
+        let (terms, coefficients): (Vec<Term>, Vec<f64>) = sums.into_iter().unzip();
+        Expansion { terms: terms.into(), coefficients }
     }
 }
 

@@ -4,6 +4,7 @@
 //! of its directions, and ridge regression on the terms adds what they leave of it.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -24,7 +25,7 @@ const NOISES: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2];
 /// Terms at the rows of each part.
 struct Shared {
     rows: Vec<Vec<usize>>,
-    terms: Vec<Term>,
+    terms: Arc<[Term]>,
     /// Standard deviations of their coefficients.
     sizes: Vec<f64>,
     columns: Vec<Panels>,
@@ -107,7 +108,7 @@ impl Shared {
             of_noises.into()
         });
         let factors = factors.collect();
-        Self { rows, terms, sizes, columns, grams, factors }
+        Self { rows, terms: terms.into(), sizes, columns, grams, factors }
     }
 
     /// Returns for each part the expansion of an output with the values `y`, given the coefficients of every direction:
@@ -127,7 +128,7 @@ impl Shared {
         for (sum, of_part) in sums.iter_mut().zip(&more) {
             sum.iter_mut().zip(&self.sizes).zip(&of_part[best].0).for_each(|((c, size), b)| *c += size * b);
         }
-        sums.into_iter().map(|coefficients| Expansion { terms: self.terms.clone(), coefficients }).collect()
+        sums.into_iter().map(|coefficients| Expansion { terms: Arc::clone(&self.terms), coefficients }).collect()
     }
 
     /// Returns for none and each noise the coefficients of the scaled terms by the rows of the other parts, of what an

@@ -6,7 +6,7 @@ use apportion_base::special::{normal_below, normal_quantile};
 fn extrapolation(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> ExtrapolationError {
     let families = [family, Family::Legendre];
     let effects = Effects { swaps: vec![vec![0], vec![1]], pairs: vec![(0, 1)] };
-    ExtrapolationError::new(&[Expansion { terms, coefficients }], &families, 100, rest, &effects)
+    ExtrapolationError::new(&[Expansion { terms: terms.into(), coefficients }], &families, 100, rest, &effects)
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn influences_are_derivatives_by_the_weights_of_rows() {
         let all = (0..8).flat_map(|i| (0..8).map(move |j| [i, j]));
         all.map(|[i, j]| model(X[0][i], X[1][j]) * value(term, [i, j])).sum::<f64>() / 64.0
     };
-    let expansion = Expansion { coefficients: terms.iter().map(coefficient).collect(), terms };
+    let expansion = Expansion { coefficients: terms.iter().map(coefficient).collect(), terms: terms.into() };
     let factors = X.iter().map(|x| Factor::new(&Family::of_column(x), x, 2)).collect();
     let Influences { variance, first_order, total } =
         Influences::new(&Basis { factors, rows: 8, parts: Vec::new() }, &expansion);
