@@ -28,7 +28,7 @@ impl Study {
 /// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<Warning> {
     let values: Vec<f64> = samples.iter().flatten().map(|si| output.unit.from_si(*si)).collect();
-    let unlikely = Unlikely::find(&values)?;
+    let unlikely = Unlikely::find_in_rows(&values)?;
     let (mut place, mut replicate) = (unlikely.first, 0);
     while place >= samples[replicate].len() {
         place -= samples[replicate].len();

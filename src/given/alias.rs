@@ -14,8 +14,9 @@ const MAX_DECIDING: usize = 4;
 /// Largest number of sets of columns that are tried.
 const MAX_SETS: usize = 20_000;
 
-/// Rows beyond one for each combination of values: by chance a column agrees in all of them once in 2^12 tables.
-const MIN_AGREEING: usize = 12;
+/// Bits of information in the rows that agree, beyond those of the choice among all sets: by chance a column is decided
+/// once in 2^12 tables.
+const MIN_BITS: f64 = 12.0;
 
 /// Refuses inputs of which one is a function of two or more others in all rows: nothing tells the effect of the one from
 /// an interaction of the others. (A function of one other depends on it, which is said.)
@@ -28,9 +29,10 @@ pub(super) fn check(inputs: &[(&str, &Order)]) -> Result<(), GivenError> {
     let mut sets: Vec<Vec<usize>> = few.iter().map(|&j| vec![j]).collect();
     let mut decided_alone = Vec::new();
     for size in 1..=MAX_DECIDING.min(few.len().saturating_sub(1)) {
+        let least = MIN_BITS + libm::log2((sets.len() * few.len()) as f64);
         for set in &sets {
             for &input in few.iter().filter(|input| !set.contains(input)) {
-                if !decides(&labels, set, input) {
+                if bits_decided(&labels, set, input) < least {
                     continue;
                 }
                 if size == 1 {
@@ -51,14 +53,46 @@ pub(super) fn check(inputs: &[(&str, &Order)]) -> Result<(), GivenError> {
     Ok(())
 }
 
-/// Returns whether rows that agree in the columns `set` also agree in `input`, and enough of them do.
-fn decides(labels: &[Vec<usize>], set: &[usize], input: usize) -> bool {
+/// Returns the bits of `input` in rows that agree in the columns `set` with earlier ones, and in it too; 0 if some do not.
+/// A value that most rows have says little.
+fn bits_decided(labels: &[Vec<usize>], set: &[usize], input: usize) -> f64 {
+    let mut counts = [0.0; MAX_VALUES];
+    labels[input].iter().for_each(|value| counts[*value] += 1.0);
+    let (rows, mut bits) = (labels[input].len() as f64, 0.0);
     let mut value_of: HashMap<usize, usize> = HashMap::new();
     for (row, value) in labels[input].iter().enumerate() {
         let combination = set.iter().fold(0, |number, &j| number * MAX_VALUES + labels[j][row]);
-        if value_of.insert(combination, *value).is_some_and(|before| before != *value) {
-            return false;
+        match value_of.insert(combination, *value) {
+            Some(before) if before != *value => return 0.0,
+            Some(_) => bits += libm::log2(rows / counts[*value]),
+            None => {}
         }
     }
-    labels[input].len() >= value_of.len() + MIN_AGREEING
+    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns what [`check`] says of 100 rows of columns `a` to `d` of three values in pseudo-random order, and of
+    /// another one, `e`.
+    fn checked(e: impl Fn(usize, &[f64]) -> f64) -> Result<(), GivenError> {
+        let value = |row: usize, j: usize| ((row * row * 7 + row * (11 + 2 * j) + j * j * 5) * 2_654_435_761 >> 13) % 3;
+        let rows: Vec<Vec<f64>> = (0..100).map(|row| (0..4).map(|j| value(row, j) as f64).collect()).collect();
+        let mut columns: Vec<Vec<f64>> = (0..4).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+        columns.push(rows.iter().enumerate().map(|(k, row)| e(k, row)).collect());
+        let orders: Vec<Order> = columns.iter().map(|column| Order::from_values(column)).collect();
+        check(&["a", "b", "c", "d", "e"].into_iter().zip(&orders).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_function_of_two_columns_is_named_and_a_rare_value_is_none() {
+        let alias = checked(|_, row| (row[0] + row[1]) % 3.0);
+        assert!(matches!(alias, Err(GivenError::Alias { .. })), "{alias:?}");
+        // One row in a hundred: its combination of the others may well be the only one.
+        for rare in 0..100 {
+            assert_eq!(checked(|k, _| f64::from(u8::from(k == rare))), Ok(()), "{rare}");
+        }
+    }
 }

@@ -41,12 +41,11 @@ pub struct Unlikely {
 
 impl Unlikely {
     /// Returns the smallest or largest of the finite `values`, if it is such a code and stands out or is repeated
-    /// among values that differ, or if it is far from all others; or any value that occurs many times among values that
-    /// all differ, unless it is a limit of their range.
+    /// among values that differ, or if it is far from all others.
     pub fn find(values: &[f64]) -> Option<Self> {
         let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         let (low, high) = range(&finite, None);
-        let extreme = [low, high].into_iter().find_map(|value| {
+        [low, high].into_iter().find_map(|value| {
             let others = range(&finite, Some(value));
             let width = others.1 - others.0;
             let gap = (value - others.0).abs().min((value - others.1).abs());
@@ -63,12 +62,18 @@ impl Unlikely {
             let first = values.iter().position(|other| *other == value)?;
             let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
             is_unlikely.then_some(Self { value, count, first, of, others })
-        });
-        extreme.or_else(|| Self::repeated(values, finite))
+        })
     }
 
-    /// Returns the value of `finite` ones that alone occurs many times.
-    fn repeated(values: &[f64], mut finite: Vec<f64>) -> Option<Self> {
+    /// Returns the same of `values` of independent rows; or any value that occurs many times among values that all differ,
+    /// unless it is a limit of their range.
+    pub fn find_in_rows(values: &[f64]) -> Option<Self> {
+        Self::find(values).or_else(|| Self::repeated(values))
+    }
+
+    /// Returns the value that alone occurs many times.
+    fn repeated(values: &[f64]) -> Option<Self> {
+        let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         finite.sort_unstable_by(f64::total_cmp);
         let runs: Vec<&[f64]> = finite.chunk_by(|a, b| a == b).collect();
         let longest = runs.iter().max_by_key(|run| run.len())?;

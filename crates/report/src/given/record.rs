@@ -225,7 +225,7 @@ pub fn build_given(
 
 /// Returns a sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
-    let unlikely = Unlikely::find(&column.values)?;
+    let unlikely = Unlikely::find_in_rows(&column.values)?;
     let (text, value) = (unlikely.in_table(unlikely.first + 1), unlikely.value);
     Some(format!("{}: {text} (--missing-value={value:?})", column.name))
 }

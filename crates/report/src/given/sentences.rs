@@ -177,7 +177,7 @@ pub(super) fn few_rows(of: &OutputDistribution) -> Option<String> {
 /// Returns the warnings of values of outputs that may mark failed runs: outputs with the same one share a sentence.
 pub(super) fn codes(outputs: &[Column]) -> Vec<String> {
     let found: Vec<(&Column, Unlikely)> =
-        outputs.iter().filter_map(|output| Some((output, Unlikely::find(&output.values)?))).collect();
+        outputs.iter().filter_map(|output| Some((output, Unlikely::find_in_rows(&output.values)?))).collect();
     let groups = found.chunk_by(|(_, a), (_, b)| (a.value, a.count, a.first) == (b.value, b.count, b.first));
     let sentence = |group: &[(&Column, Unlikely)]| {
         let names: Vec<String> = group.iter().map(|(output, _)| output.name.clone()).collect();

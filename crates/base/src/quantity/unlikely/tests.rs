@@ -15,7 +15,7 @@ fn codes_and_slips_are_found() {
     one[77] = 2e4;
     assert_eq!(Unlikely::find(&one).map(|found| (found.count, found.first)), Some((1, 77)));
     // Any value that recurs where all others differ.
-    assert_eq!(Unlikely::find(&with(0.5)).map(|found| found.count), Some(10));
+    assert_eq!(Unlikely::find_in_rows(&with(0.5)).map(|found| found.count), Some(10));
     // A repeated code within the range of the other values is also found.
     let wide: Vec<f64> = with(0.5).iter().map(|y| if *y == 0.5 { -999.0 } else { 1998.0 * y - 998.0 }).collect();
     assert_eq!(Unlikely::find(&wide).map(|found| found.count), Some(10));
@@ -29,5 +29,6 @@ fn values_of_models_are_not() {
     let cut: Vec<f64> = with(0.5).iter().map(|y| y.max(0.2)).collect();
     for values in [switch, counts, tail, cut, vec![-999.0; 40], Vec::new()] {
         assert_eq!(Unlikely::find(&values), None);
+        assert!(Unlikely::find_in_rows(&values).is_none_or(|found| found.value == 0.5), "{values:?}");
     }
 }
