@@ -29,6 +29,6 @@ fn values_of_models_are_not() {
     let cut: Vec<f64> = with(0.5).iter().map(|y| y.max(0.2)).collect();
     for values in [switch, counts, tail, cut, vec![-999.0; 40], Vec::new()] {
         assert_eq!(Unlikely::find(&values), None);
-        assert!(Unlikely::find_in_rows(&values).is_none_or(|found| found.value == 0.5), "{values:?}");
+        assert_eq!(Unlikely::find_in_rows(&values), None);
     }
 }
