@@ -147,7 +147,7 @@ impl Table {
     fn sort_by_counter(&mut self, rows: u64) -> Result<(), TableError> {
         let of_inputs = self.inputs.iter().map(|input| places_of_rows(&input.values, rows));
         let of_inputs: Vec<Option<Vec<usize>>> = of_inputs.collect();
-        let is_only_kind = of_inputs.iter().all(Option::is_some) && self.inputs.len() > 1;
+        let is_only_kind = of_inputs.iter().all(Option::is_some);
         let can_be_one = of_inputs.iter().flatten().any(|places| places.len() >= MIN_NUMBERED) && !is_only_kind;
         let found = (0..self.inputs.len())
             .find(|place| of_inputs[*place].is_some() && (can_be_one || is_called_counter(&self.inputs[*place].name)));
