@@ -75,11 +75,14 @@ fn bits_decided(labels: &[Vec<usize>], set: &[usize], input: usize) -> f64 {
 mod tests {
     use super::*;
 
+    fn value(row: usize, j: usize) -> f64 {
+        ((((row * row * 7 + row * (11 + 2 * j) + j * j * 5) * 2_654_435_761) >> 13) % 3) as f64
+    }
+
     /// Returns what [`check`] says of 100 rows of columns `a` to `d` of three values in pseudo-random order, and of
     /// another one, `e`.
     fn checked(e: impl Fn(usize, &[f64]) -> f64) -> Result<(), GivenError> {
-        let value = |row: usize, j: usize| ((row * row * 7 + row * (11 + 2 * j) + j * j * 5) * 2_654_435_761 >> 13) % 3;
-        let rows: Vec<Vec<f64>> = (0..100).map(|row| (0..4).map(|j| value(row, j) as f64).collect()).collect();
+        let rows: Vec<Vec<f64>> = (0..100).map(|row| (0..4).map(|j| value(row, j)).collect()).collect();
         let mut columns: Vec<Vec<f64>> = (0..4).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
         columns.push(rows.iter().enumerate().map(|(k, row)| e(k, row)).collect());
         let orders: Vec<Order> = columns.iter().map(|column| Order::from_values(column)).collect();
