@@ -136,23 +136,13 @@ pub(crate) fn low_fidelity_estimates(
     let mut f = ScaledOutput::new(replicates, runs, None)?;
     let g = ScaledOutput::new(&low.shared, runs, Some(low.independent.scale))?;
     leave_out_points_that_failed(&mut f.nets, &g.nets);
-    let two_models = |degree: usize| -> Vec<TwoModels> {
-        let numbers = (0..f.nets.len()).into_par_iter();
-        let nets = numbers.map(|k| {
-            let table = &f.nets[k];
-            let expensive = net(design, k, 0..table.points(), families, degree, table);
-            let cheap = expensive.with_outputs(g.nets[k].at(&table.complete_points()).runs);
-            TwoModels { expensive, cheap }
-        });
-        nets.collect()
-    };
-    let nets = two_models(0);
+    let nets = two_models(design, families, 0, &f.nets, &g.nets);
     if nets.iter().any(|net| net.expensive.points() < fewest_points(design)) {
         return None;
     }
     let effects = Effects::new(design, layout);
     let approximation = Approximation::new(&nets, families);
-    let nets = two_models(degree(&approximation.rests));
+    let nets = two_models(design, families, degree(&approximation.rests), &f.nets, &g.nets);
     let pairs = nets.par_iter().zip(&approximation.rests);
     let contributions = pairs.map(|(net, rest)| differences(design, net, &approximation, rest, &effects)).collect();
     let of_low = independent_contributions(low.independent, families, &approximation, &effects);
@@ -163,6 +153,22 @@ pub(crate) fn low_fidelity_estimates(
     };
     let corrected = Corrected::new(design, contributions, approximation.rests, families, &effects);
     Some(SurrogateEstimates { low: Some(low), ..estimates(&corrected, &of_low, f.scale) })
+}
+
+/// Returns the runs of every net by the expensive model, `f`, and by the other.
+fn two_models(
+    design: &Design,
+    families: &[Family],
+    degree: usize,
+    f: &[OutputTable],
+    g: &[OutputTable],
+) -> Vec<TwoModels> {
+    let nets = f.par_iter().zip(g).enumerate().map(|(k, (f, g))| {
+        let expensive = net(design, k, 0..f.points(), families, degree, f);
+        let cheap = expensive.with_outputs(g.at(&f.complete_points()).runs);
+        TwoModels { expensive, cheap }
+    });
+    nets.collect()
 }
 
 /// Sets those points of `f` to not finite at which a run of `g` failed.
