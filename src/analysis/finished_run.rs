@@ -1,6 +1,10 @@
 //! Finished runs, the names of their estimates, and the inputs of their rows.
 
+use std::sync::Arc;
+
 use serde_json::{Map, Value};
+
+use super::plain::PlainOutputs;
 
 use crate::correction::{IndependentOutputs, SurrogateEstimates};
 use crate::design::Design;
@@ -26,6 +30,8 @@ pub(crate) struct FinishedRun<'a> {
     pub low_fidelity: &'a [LowFidelityTotals<'a>],
     /// The surrogate estimates of every output, if already known.
     pub surrogates: Option<&'a [Option<SurrogateEstimates>]>,
+    /// The surrogates of a run of plain rows, if already known.
+    pub plain: Option<&'a Arc<PlainOutputs>>,
     /// Threads that ran the model.
     pub threads: usize,
     /// Seconds from the first run to the last.

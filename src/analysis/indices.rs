@@ -90,7 +90,10 @@ fn surrogate_record(
         gain_first_order: used.gain_first_order,
         gain_total: used.gain_total,
         leading_terms: used.terms.iter().map(|term| term.named(&names)).collect(),
-        plain: other_records(study, effects, indices, |of| of.plain.map(|plain| plain.map(Some)).unwrap_or_default()),
+        plain: match indices.effects.iter().any(|of| of.plain.is_some()) {
+            true => other_records(study, effects, indices, |of| of.plain.map(|of| of.map(Some)).unwrap_or_default()),
+            false => Vec::new(),
+        },
         low: used.low.clone(),
     }
 }

@@ -7,6 +7,7 @@ mod indices;
 mod measures;
 mod output;
 mod output_indices;
+mod plain;
 mod rare_levels;
 mod result;
 mod scatter;
@@ -19,6 +20,7 @@ mod warnings;
 
 pub(crate) use finished_run::{FinishedRun, LowFidelityTotals, named_inputs, outputs_kept};
 pub(crate) use output_indices::{IntervalOptions, output_indices};
+pub(crate) use plain::PlainOutputs;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
 pub(crate) use surrogates::{interval_options, surrogates};

@@ -48,9 +48,10 @@ pub(super) fn output_result(
     let used = merged(&parts.iter().map(MomentParts::sum).collect::<Vec<_>>());
     let layout = study.layout();
     let share = totals.runs_failed as f64 / run.design.rows() as f64;
-    let mut indices = match share > study.analysis.max_failed {
-        true => Err(Undefined::TooManyFailed { share, allowed: study.analysis.max_failed }),
-        false => output_indices(&parts, &layout, &options),
+    let mut indices = match (share > study.analysis.max_failed, &corrected.plain) {
+        (true, _) => Err(Undefined::TooManyFailed { share, allowed: study.analysis.max_failed }),
+        (false, Some(plain)) => plain.indices(study, run.model, number, true),
+        (false, None) => output_indices(&parts, &layout, &options),
     };
     let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
@@ -58,7 +59,7 @@ pub(super) fn output_result(
     let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
     let warnings = output_warnings(run, number, counts, &used, indices.as_mut().ok(), corrected, &samples);
     let mut convergence = Vec::new();
-    if let (Ok(indices), true) = (&indices, study.analysis.convergence) {
+    if let (Ok(indices), true) = (&indices, study.analysis.convergence && corrected.plain.is_none()) {
         let stages = stages(&parts, &layout, &options, indices, &|points| {
             corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref()
         });

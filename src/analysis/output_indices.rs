@@ -157,11 +157,21 @@ pub fn output_indices(
         }
         used = Some(of_surrogate);
     }
+    let plain = used.as_ref().map(|_| plain);
+    Ok(OutputIndices { surrogate: used, ..of_quantities(judged, plain, options) })
+}
+
+/// Returns the indices by their `judged` quantities; `plain` are those without a surrogate, if there was one.
+pub(super) fn of_quantities(
+    judged: Quantities<Judgement>,
+    plain: Option<Vec<IndexPair<Estimate>>>,
+    options: &IntervalOptions<'_>,
+) -> OutputIndices {
     let probabilities = if options.ranks { probabilities_first(&judged, options.seed) } else { None };
     let mut probabilities = probabilities.into_iter().flatten();
     let mut redrawn = judged.redrawn.iter();
     let mut effects = Vec::with_capacity(judged.effects.len());
-    for (judgements, plain) in judged.effects.iter().zip(plain) {
+    for (at, judgements) in judged.effects.iter().enumerate() {
         let (mut estimates, mut checks) = judgements.estimates(options.threshold);
         if let Some(redrawn) = redrawn.next() {
             let (of_redrawn, checks_of_redrawn) = redrawn.estimates(options.threshold);
@@ -176,10 +186,10 @@ pub fn output_indices(
             estimates,
             checks,
             of_mean: judgements.mean_estimates(),
-            plain: used.as_ref().map(|_| plain),
+            plain: plain.as_ref().map(|plain| plain[at]),
         });
     }
-    Ok(OutputIndices {
+    OutputIndices {
         effects,
         sums: judged.sums.map(|sum| sum.estimate),
         pairs: judged
@@ -188,8 +198,8 @@ pub fn output_indices(
             .map(|OfPair { factors, value }| OfPair { factors, value: value.estimate })
             .collect(),
         mean_share: judged.mean_share.map(|share| share.estimate),
-        surrogate: used,
-    })
+        surrogate: None,
+    }
 }
 
 /// Computes all quantities with the errors that the plain rows show, and bounds on what they cannot show.

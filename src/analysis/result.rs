@@ -23,13 +23,16 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::IntervalMethod;
 
+/// The source of the indices of plain rows.
+const SURROGATE: &str = "polynomial chaos (Sudret 2008)";
+
 /// Returns the result of a run; `stopped` is why a growing one ended.
 pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> StudyResult {
     let FinishedRun { study, model, design, replicates, low_fidelity, .. } = *run;
     let mut counts = Totals::none(model);
     replicates.iter().for_each(|totals| counts.add_counts(totals));
     let corrected = Corrections::new(run);
-    let series = series(run, &counts, &corrected.of_run);
+    let series = series(run, &counts, &corrected);
     let wanted = &study.analysis.measures;
     let rows = OutputRows {
         scatter: study.analysis.pictures.then(|| rows_of_scatter(design)),
@@ -49,7 +52,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> Stud
             .collect(),
         validity: ValidityRecord::of_flags(model.flags().iter().zip(counts.flags.iter().copied()), design.rows()),
         effort: effort(model, &counts),
-        aggregate: aggregate(run),
+        aggregate: aggregate(run, &corrected),
         series,
         stopping: stopped.map(|reason| stopping(study, reason)),
         spending: None,
@@ -82,21 +85,25 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
     let options = &study.analysis;
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
-    let (first_order, total) = (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba()));
+    let sources = match design.is_plain() {
+        true => [SURROGATE; 2],
+        false => [FirstOrder::default_for(design.has_ba()).source(), Total::default_for(design.has_ba()).source()],
+    };
+    let [first_order_estimator, total_estimator] = sources.map(str::to_owned);
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
         sampler: settings.sampler,
         base_samples: settings.base_samples,
         replicates: settings.replicates,
-        plain_rows: design.plain_rows(),
+        plain: design.is_plain(),
         model_runs: design.rows(),
         threads: run.threads,
         wall_seconds: run.wall_seconds,
         study_sha256: study.source.sha256.clone(),
-        first_order_estimator: first_order.source().to_owned(),
-        total_estimator: total.source().to_owned(),
-        interval_method: (!alone).then_some(options.intervals),
+        first_order_estimator,
+        total_estimator,
+        interval_method: (!alone && !design.is_plain()).then_some(options.intervals),
         resamples: (options.intervals == IntervalMethod::Percentile).then_some(options.resamples),
         threshold: options.threshold,
         model_files: study.subject.files().iter().map(|file| name_of(file)).collect(),
@@ -108,7 +115,7 @@ fn name_of(file: &Path) -> String {
 }
 
 /// Aggregates all outputs if the study requests it, otherwise those that belong to no series, if there are many.
-fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
+fn aggregate(run: &FinishedRun<'_>, corrected: &Corrections) -> Option<AggregateRecord> {
     let FinishedRun { study, model, .. } = *run;
     let (outputs, single) = (model.outputs(), single_outputs(model));
     let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
@@ -118,7 +125,7 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
     let weighting = if same_unit { Scaling::Plain } else { Scaling::Standardised };
     let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
-    let indices = together(run, places.into_iter(), weighting);
+    let indices = together(run, corrected, places.into_iter(), weighting);
     Some(AggregateRecord {
         outputs: names,
         weighting,

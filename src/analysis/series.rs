@@ -3,6 +3,7 @@
 use super::aggregate::{AggregateIndices, aggregate_indices};
 use super::finished_run::FinishedRun;
 use super::indices::named;
+use super::surrogates::Corrections;
 use crate::correction::SurrogateEstimates;
 use crate::effect::{Effect, IndexPair};
 use crate::estimate::{MomentParts, Scaling, Undefined};
@@ -12,20 +13,15 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::Estimate;
 
-/// Returns the results for every series of the model; `counts` holds the counts over all replicates, `surrogates` the
-/// surrogate estimates of every output.
-pub(super) fn series(
-    run: &FinishedRun<'_>,
-    counts: &Totals,
-    surrogates: &[Option<SurrogateEstimates>],
-) -> Vec<SeriesRecord> {
+/// Returns the results for every series of the model; `counts` holds the counts over all replicates.
+pub(super) fn series(run: &FinishedRun<'_>, counts: &Totals, corrections: &Corrections) -> Vec<SeriesRecord> {
     let mut records = Vec::new();
     for series in run.model.series() {
-        let plain = together(run, series.places(), Scaling::Plain);
+        let plain = together(run, corrections, series.places(), Scaling::Plain);
         let varying =
             series.places().filter(|place| counts.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
         let corrected: Option<Vec<&SurrogateEstimates>> =
-            varying.map(|place| surrogates.get(place)?.as_ref()).collect();
+            varying.map(|place| corrections.of_run.get(place)?.as_ref()).collect();
         let all = match corrected {
             Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
             None => plain,
@@ -47,9 +43,13 @@ pub(super) fn series(
 /// Computes joint indices of the outputs at `places`.
 pub(super) fn together(
     run: &FinishedRun<'_>,
+    corrections: &Corrections,
     places: impl Iterator<Item = usize>,
     scaling: Scaling,
 ) -> Result<AggregateIndices, Undefined> {
+    if let Some(plain) = &corrections.plain {
+        return plain.together(run.study, run.model, places, scaling);
+    }
     let parts: Vec<Vec<&MomentParts>> =
         places.map(|place| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect()).collect();
     aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)

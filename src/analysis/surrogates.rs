@@ -1,9 +1,11 @@
 //! Surrogate estimates of the outputs of a run, with low-fidelity models if there are any.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::finished_run::{FinishedRun, LowFidelityTotals, outputs_kept};
 use super::output_indices::{IntervalOptions, output_indices};
+use super::plain::PlainOutputs;
 use super::rare_levels::rare_levels;
 use super::stages::points_of_stages;
 use crate::correction::SurrogateEstimates;
@@ -54,7 +56,8 @@ fn surrogates_and_trials(
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
     let points = design.points_per_replicate();
     let kept: Vec<Vec<PointOutputs>> = (0..outputs).map(|number| first_points(replicates, number, points)).collect();
-    if !study.uses_surrogate(design) || kept.iter().flatten().all(|outputs| outputs.points() == 0) {
+    if design.is_plain() || !study.uses_surrogate(design) || kept.iter().flatten().all(|outputs| outputs.points() == 0)
+    {
         return (vec![None; outputs], vec![None; outputs]);
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
@@ -149,6 +152,8 @@ pub(super) struct Corrections {
     pub of_run: Vec<Option<SurrogateEstimates>>,
     /// By the base points of a replicate.
     pub stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
+    /// The surrogates of a run of plain rows.
+    pub plain: Option<Arc<PlainOutputs>>,
     /// The gains by surrogates in trials of the outputs; empty for a run that grew.
     pub trials: Vec<Option<SurrogateTrial>>,
     /// The levels that are rare among the rows.
@@ -172,6 +177,7 @@ impl Corrections {
                 }
             }
         }
-        Self { of_run, stages, trials, rare: rare_levels(&study.space, design) }
+        let plain = run.plain.cloned().or_else(|| PlainOutputs::new(study, design, replicates));
+        Self { of_run, stages, plain, trials, rare: rare_levels(&study.space, design) }
     }
 }

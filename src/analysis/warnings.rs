@@ -139,7 +139,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
             Refusal::Contradiction { times } => Warning::ContradictedSurrogate { times },
             Refusal::Growth { times } => Warning::InflatedSurrogate { times },
         }));
-        let is_poor = study.design.plain_rows() > 0 && used.explained < MIN_EXPLAINED;
+        let is_poor = study.design.is_plain() && used.explained < MIN_EXPLAINED;
         warnings.extend(is_poor.then_some(Warning::PoorSurrogate { explained: used.explained }));
     }
     // Corrected first-order indices do not depend on the formulas.

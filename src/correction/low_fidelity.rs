@@ -29,7 +29,7 @@ use crate::surrogate::expansion::{degree, values_and_rest};
 use crate::surrogate::family::Family;
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::{OutputTable, Scale, ScaledOutput};
-use crate::surrogate::{Effects, Expansion, FittedRows, Term, fewest_points, fitted_design, takes_surrogates};
+use crate::surrogate::{Effects, Expansion, FittedRows, MIN_POINTS, Term, fitted_design, takes_surrogates};
 
 /// Part of the range of the shared rows by which other values may lie outside it: those of a few hundred draws of a
 /// normal distribution leave 4e-4 of its variance beyond.
@@ -65,7 +65,7 @@ impl IndependentOutputs {
             return None;
         }
         let ScaledOutput { nets, scale } = ScaledOutput::new(replicates, design.runs().len(), None)?;
-        let enough = nets.iter().all(|net| net.complete_points().len() >= fewest_points(design));
+        let enough = nets.iter().all(|net| net.complete_points().len() >= MIN_POINTS);
         let expansions = if enough {
             let first = fitted_design(design).points_per_replicate() as usize;
             let some: Vec<Net> =
@@ -137,7 +137,7 @@ pub(crate) fn low_fidelity_estimates(
     let g = ScaledOutput::new(&low.shared, runs, Some(low.independent.scale))?;
     leave_out_points_that_failed(&mut f.nets, &g.nets);
     let nets = two_models(design, families, 0, &f.nets, &g.nets);
-    if nets.iter().any(|net| net.expensive.points() < fewest_points(design)) {
+    if nets.iter().any(|net| net.expensive.points() < MIN_POINTS) {
         return None;
     }
     let effects = Effects::new(design, layout);

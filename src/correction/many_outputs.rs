@@ -16,7 +16,7 @@ use crate::surrogate::family::Family;
 use crate::surrogate::net::Net;
 use crate::surrogate::outputs::ScaledOutput;
 use crate::surrogate::{
-    CrossFitted, Effects, Expansion, FittedRows, choices, fewest_points, fitted_design, placed, takes_surrogates,
+    CrossFitted, Effects, Expansion, FittedRows, MIN_POINTS, choices, fitted_design, placed, takes_surrogates,
 };
 
 /// Maximum number of outputs that are fitted one by one, with steps and kinks.
@@ -86,7 +86,7 @@ pub(super) fn fit_outputs(
     let points = fitted.points_per_replicate() as usize;
     let complete = complete.iter().map(|of_net| &of_net[..of_net.partition_point(|point| *point < points)]);
     let complete: Vec<&[usize]> = complete.collect();
-    if complete.iter().any(|points| points.len() < fewest_points(design)) {
+    if complete.iter().any(|points| points.len() < MIN_POINTS) {
         return vec![None; outputs.len()];
     }
     let complete = outputs.par_iter().map(|output| output.at(&complete)).collect();

@@ -5,19 +5,23 @@
 mod contributions;
 mod error;
 mod estimates;
+mod held_out;
 mod influenced;
 mod kind;
 mod low_fidelity;
 mod many_outputs;
 mod mean;
 mod nets;
+mod plain;
 mod replace;
 mod surrogate_use;
 
 pub use error::CorrectionError;
 pub use estimates::{ErrorShares, SurrogateEstimates};
+pub(crate) use held_out::HeldOut;
 pub use influenced::EstimateWithInfluences;
 pub(crate) use low_fidelity::{IndependentOutputs, LowFidelityOutputs, low_fidelity_estimates};
 pub(crate) use many_outputs::surrogates_together;
+pub(crate) use plain::{PlainFit, PlainRows};
 pub(crate) use replace::{correct, hull};
 pub use surrogate_use::{LowFidelityUse, Refusal, SurrogateUse};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{Design, MAX_DIMENSIONS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_REPLICATES};
+use super::{Design, MAX_DIMENSIONS, MAX_PAIRED_FACTORS, MAX_REPLICATES};
 
 /// Why a design cannot be created.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -49,12 +49,6 @@ pub enum DesignError {
     TooManyReplicates {
         /// The number requested.
         replicates: u64,
-    },
-    /// More plain rows than fit in the memory of a block of base points.
-    #[error("{plain_rows} plain rows: at most {MAX_PLAIN_ROWS} for each base sample are possible")]
-    TooManyPlainRows {
-        /// The number requested.
-        plain_rows: u32,
     },
     /// More model runs than can be counted.
     #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
@@ -103,9 +97,6 @@ pub enum DesignError {
          instead"
     )]
     PairsOfDependentFactors,
-    /// Plain rows of dependent factors.
-    #[error("plain rows serve only surrogates, which need independent factors, and these factors depend on each other")]
-    PlainRowsOfDependentFactors,
     /// A copula with a different number of factors.
     #[error("the copula has {copula} factors, but the design has {factors}")]
     OtherFactors {

@@ -5,8 +5,8 @@
 //! sequences of d dimensions each would look similar, but the indices then never converge.) Every base point has `2 +
 //! k` rows: A, B, and one row AB_s for each of the k `Swap`s, which is A with some columns taken from B (Saltelli et
 //! al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns from A, are
-//! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at separate points,
-//! are used to fit surrogates.
+//! added for the estimators that need them. Rows at the same point are run only once. A design without swaps is
+//! one of plain rows.
 
 mod base;
 mod error;
@@ -37,9 +37,6 @@ const MAX_REPLICATES: u64 = 4096;
 
 /// Maximum number of factors for second-order indices: their sums take d (d - 1) numbers for every output.
 const MAX_PAIRED_FACTORS: usize = 256;
-
-/// Maximum number of plain rows of a base point.
-pub(crate) const MAX_PLAIN_ROWS: u32 = 1000;
 
 /// A checked Saltelli design.
 ///
@@ -78,17 +75,16 @@ impl Design {
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than 4096, fewer than two or more than
     /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
-    /// does not exist, second-order indices without the rows BA or of more than 256 factors, or
-    /// second-order indices or plain rows of dependent factors.
+    /// does not exist, second-order indices without the rows BA, of more than 256 factors
+    /// or of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         let points = base_samples.div_ceil(replicates.max(1));
-        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > Design::MAX_POINTS;
+        let is_too_long = points > Design::MAX_POINTS;
         refuse([
             (factors == 0, DesignError::NoFactors),
             (factors > Design::MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
             (sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2, DesignError::TooManyFactors { factors }),
-            (rows.plain_rows > MAX_PLAIN_ROWS, DesignError::TooManyPlainRows { plain_rows: rows.plain_rows }),
             (replicates == 0, DesignError::NoReplicates),
             (replicates > MAX_REPLICATES, DesignError::TooManyReplicates { replicates }),
         ])?;
@@ -106,7 +102,6 @@ impl Design {
                 DesignError::TooManyPairs { factors: disjoint.len() },
             ),
             (is_dependent && rows.second_order, DesignError::PairsOfDependentFactors),
-            (is_dependent && rows.plain_rows > 0, DesignError::PlainRowsOfDependentFactors),
             (of_copula != factors, DesignError::OtherFactors { copula: of_copula, factors }),
         ])?;
         let runs = Runs::new(&rows, factors);
@@ -176,11 +171,11 @@ impl Design {
         if self.requested.second_order { &self.disjoint } else { &[] }
     }
 
-    /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
-    /// of dependent factors that follow others.
+    /// Returns the number of columns of the base points: d for each of the matrices A and B; then those of dependent
+    /// factors that follow others.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-        self.factors * (2 + self.requested.plain_rows as usize) + mixed
+        2 * self.factors + mixed
     }
 
     /// Returns the factor of a column.
@@ -208,9 +203,19 @@ impl Design {
         self.factors * matrix.place()
     }
 
-    /// Returns the number of rows of every base point that are used only to fit surrogates.
-    pub fn plain_rows(&self) -> u32 {
-        self.requested.plain_rows
+    /// Returns whether every row is at a point of its own: there are no swaps.
+    pub fn is_plain(&self) -> bool {
+        self.requested.swaps.is_empty()
+    }
+
+    /// Returns the same points without swaps, `rows` of them in all, rounded down to as many in A and B of every replicate.
+    ///
+    /// # Errors
+    /// [`DesignError`] if that is too few.
+    pub(crate) fn plain(&self, rows: u64) -> Result<Self, DesignError> {
+        let each = 2 * self.settings.replicates;
+        let settings = DesignSettings { base_samples: rows / each * each / 2, ..self.settings.clone() };
+        Self::new(settings, self.factors, Rows::default())
     }
 
     /// Returns the rows of one base point that are run, in the order in which rows are counted.
@@ -230,7 +235,7 @@ impl Design {
 
     /// Returns the number of distinct values of every factor: swapped rows repeat those of A and B.
     pub fn distinct_values(&self) -> u64 {
-        self.settings.base_samples * (2 + u64::from(self.requested.plain_rows))
+        2 * self.settings.base_samples
     }
 
     /// Returns the number of rows of one base point: A, B and the requested ones, each distinct point once.
@@ -245,12 +250,12 @@ impl Design {
 
     /// Returns whether the points of a replicate are complete nets: a power of two of them, or points that need none.
     pub(crate) fn balanced(&self) -> bool {
-        !self.settings.sampler.is_digital() || self.points_per_replicate().is_power_of_two()
+        !self.settings.sampler.is_digital() || self.is_plain() || self.points_per_replicate().is_power_of_two()
     }
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, &self.requested, self.runs.mixed.clone())
+        BasePoints::new(&self.settings, replicate, self.factors, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of

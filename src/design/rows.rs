@@ -19,8 +19,6 @@ pub struct Rows {
     pub ba: bool,
     /// Whether the sums for second-order indices are kept; needs the rows BA.
     pub second_order: bool,
-    /// Rows of every base point at separate points, used only to fit surrogates.
-    pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
     pub copula: Option<Arc<GaussianCopula>>,
     /// The swaps, by index, whose factors are drawn again given all others; the same for independent factors.
@@ -45,8 +43,6 @@ pub enum RowKind {
     Ab(usize),
     /// B with the columns of the swap from A.
     Ba(usize),
-    /// A point that shares no column with any other row of the design; the number counts those of a base point.
-    Plain(u32),
 }
 
 /// One of the independent matrices of a design.
@@ -56,17 +52,14 @@ pub enum Matrix {
     A,
     /// Dimensions d to 2d.
     B,
-    /// Points of a separate sequence; every base point has one for each of its plain rows.
-    Plain(u32),
 }
 
 impl Matrix {
-    /// Returns its position among the matrices of a design: A, B and the plain ones.
+    /// Returns its position among the matrices of a design.
     pub(super) fn place(self) -> usize {
         match self {
             Self::A => 0,
             Self::B => 1,
-            Self::Plain(number) => 2 + number as usize,
         }
     }
 }
@@ -106,11 +99,9 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// Returns the runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
-    /// plain ones.
+    /// Returns the runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows.
     pub fn new(rows: &Rows, factors: usize) -> Self {
-        let first = factors * (2 + rows.plain_rows as usize);
-        let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
+        let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, 2 * factors));
         let [a, b] = [(RowKind::A, Matrix::A, Matrix::B), (RowKind::B, Matrix::B, Matrix::A)]
             .map(|(kind, base, from)| Run::new(kind, base, Vec::new(), from));
         let numbers = [&a, &b].map(|run| (key(factors, run.base, &[], run.from), Vec::new()));
@@ -118,10 +109,6 @@ impl Runs {
         let mut unique = Unique { factors, runs: vec![a, b], numbers, mixed };
         let ab = unique.all_swapped(rows, RowKind::Ab, Matrix::A, Matrix::B);
         let ba = if rows.ba { unique.all_swapped(rows, RowKind::Ba, Matrix::B, Matrix::A) } else { Vec::new() };
-        for number in 0..rows.plain_rows {
-            let matrix = Matrix::Plain(number);
-            unique.runs.push(Run::new(RowKind::Plain(number), matrix, Vec::new(), matrix));
-        }
         let Unique { runs, mixed, .. } = unique;
         Self { runs, ab, ba, mixed: mixed.map(Arc::new) }
     }

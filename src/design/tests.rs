@@ -30,40 +30,6 @@ fn with_ba(sampler: Sampler) -> Design {
 }
 
 #[test]
-fn plain_rows_have_points_of_their_own_that_fill_the_cube_together() {
-    for sampler in Sampler::ALL {
-        for without in [design(sampler), with_ba(sampler)] {
-            let rows = Rows { plain_rows: 4, ..without.requested.clone() };
-            let design = Design::new(without.settings.clone(), 3, rows).unwrap();
-            let (all, plain) = (design.rows_per_point(), without.rows_per_point());
-            assert_eq!((all, design.columns()), (plain + 4, without.columns() + 4 * 3));
-            let point = |design: &Design, row: u64| {
-                let mut u = [0.0; 3];
-                design.point(row, &mut u);
-                u
-            };
-            for base in [0, 5, 63] {
-                for row in 0..plain {
-                    assert_eq!(point(&design, base * all + row), point(&without, base * plain + row), "{sampler:?}");
-                }
-                assert_eq!(design.locate(base * all + plain + 2).2, RowKind::Plain(2));
-            }
-            // The second replicate: 16 base points of 4.
-            let points: Vec<[f64; 3]> = (16..32)
-                .flat_map(|base| (plain..all).map(move |row| base * all + row))
-                .map(|r| point(&design, r))
-                .collect();
-            for factor in 0..3 {
-                let mut cells: Vec<u64> = points.iter().map(|u| (u[factor] * 64.0) as u64).collect();
-                cells.sort_unstable();
-                cells.dedup();
-                assert!(cells.len() == 64 || sampler == Sampler::Random, "{sampler:?} {factor}: {} cells", cells.len());
-            }
-        }
-    }
-}
-
-#[test]
 fn rows_mix_a_and_b_and_every_run_is_where_it_is_said_to_be() {
     for sampler in Sampler::ALL {
         let design = with_ba(sampler);

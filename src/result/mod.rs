@@ -195,8 +195,8 @@ pub struct Provenance {
     pub base_samples: u64,
     /// Independent randomisations that share them.
     pub replicates: u64,
-    /// Runs of each base point at separate points, used only to fit surrogates.
-    pub plain_rows: u32,
+    /// Whether each run is at a point of its own: base points have no swaps, and a surrogate gives the indices.
+    pub plain: bool,
     /// Runs of the model.
     pub model_runs: u64,
     /// Threads used.
@@ -209,7 +209,7 @@ pub struct Provenance {
     pub first_order_estimator: String,
     /// Formula of the total indices.
     pub total_estimator: String,
-    /// The kind of interval; `null` if there are none.
+    /// The kind of interval; `null` if there are none, and for plain rows, whose intervals are those of the surrogate.
     pub interval_method: Option<IntervalMethod>,
     /// Resamples of bootstrap intervals; `null` for other kinds.
     pub resamples: Option<usize>,
@@ -222,6 +222,11 @@ pub struct Provenance {
 impl Provenance {
     /// Describes the intervals in a sentence; `None` if there are none.
     pub fn interval(&self) -> Option<String> {
+        if self.plain {
+            let words = "95 % interval from rows that were left out of fits: what the surrogate leaves of them, and how much the \
+                         fits differ";
+            return Some(words.to_owned());
+        }
         self.interval_method.map(|method| method.words(self.replicates, self.resamples.unwrap_or_default()))
     }
 }

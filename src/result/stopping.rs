@@ -65,15 +65,13 @@ pub enum AccuracyReason {
         "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points"
     )]
     NoSurrogates,
-    /// The trial met the target.
-    #[error("a trial of {runs} runs was enough")]
-    TrialEnough { runs: u64 },
-    /// Polynomials explained this share of the variance in a trial, enough for plain rows.
-    #[error("in a trial of {runs} runs polynomials explained {:.1} % of the variance: plain rows", 100.0 * explained)]
-    PlainRows { runs: u64, explained: f64 },
-    /// Polynomials explained this share of the variance in a trial, too little for plain rows.
-    #[error("in a trial of {runs} runs polynomials explained {:.0} % of the variance: no plain rows", 100.0 * explained)]
-    NoPlainRows { runs: u64, explained: f64 },
+    /// A surrogate of plain rows reached the accuracy.
+    #[error("a surrogate of {runs} runs, each at a point of its own, was enough")]
+    PlainRows { runs: u64 },
+    /// A surrogate explained this share of the variance of runs that it was not fitted to: what it leaves is measured by
+    /// swaps.
+    #[error("a surrogate of {runs} runs explained {:.1} % of the variance: swaps of their points measure the rest", 100.0 * explained)]
+    Swaps { runs: u64, explained: f64 },
     /// Corrected indices of that many runs would not reach the accuracy.
     #[error("corrected indices of {runs} runs would not reach the accuracy: no surrogates")]
     PlainIndices { runs: u64 },

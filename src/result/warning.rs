@@ -107,11 +107,10 @@ pub enum Warning {
     /// A level of a factor is rare among the rows.
     #[error("{0}")]
     RareLevel(RareLevel),
-    /// Rows for surrogates that explain little of the variance; `explained` is its share.
+    /// A surrogate of plain rows explains little of the variance; `explained` is its share.
     #[error(
-        "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so plain rows, which only \
-         surrogates use, help little: use all runs as base samples for this output; errors and intervals may \
-         be too small here",
+        "the surrogate explains {:.0} % of the variance of runs that it was not fitted to: total indices may be too small by \
+         the rest, and their intervals are as wide; `base_samples` instead of `runs` measures it",
         (100.0 * explained).max(0.0)
     )]
     PoorSurrogate { explained: f64 },

@@ -72,17 +72,17 @@ impl Remote<'_> {
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DesignKey {
     settings: DesignSettings,
-    plain_rows: u32,
+    is_plain: bool,
 }
 
 impl DesignKey {
     pub fn new(design: &Design) -> Self {
-        Self { settings: design.settings().clone(), plain_rows: design.plain_rows() }
+        Self { settings: design.settings().clone(), is_plain: design.is_plain() }
     }
 
     /// Returns the design that differs from `like` in these fields.
     pub fn design(&self, like: &Design) -> Option<Design> {
-        let rows = Rows { plain_rows: self.plain_rows, ..like.requested().clone() };
+        let rows = if self.is_plain { Rows::default() } else { like.requested().clone() };
         Design::new(self.settings.clone(), like.factors(), rows).ok()
     }
 }

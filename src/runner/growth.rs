@@ -1,7 +1,9 @@
 //! The growth of a run, and its stopping rules.
 
+use std::sync::Arc;
+
 use super::low_fidelity::LowFidelityRun;
-use crate::analysis::{IntervalOptions, output_indices};
+use crate::analysis::{IntervalOptions, PlainOutputs, output_indices};
 use crate::analysis::{enough_base_samples, interval_options, is_doubted, rare_levels, surrogates};
 use crate::correction::{ErrorShares, SurrogateEstimates};
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Undefined};
@@ -18,8 +20,20 @@ const MIN_BASE_SAMPLES: u64 = 1 << 12;
 /// The same where too many runs fail for there to be indices: fewer runs show the share of failures.
 const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
-/// Why a growing run stopped, and the surrogate estimates of every output.
-pub(super) type Grown = (StopReason, Vec<Option<SurrogateEstimates>>);
+/// Why a run that grew stopped, and what is known of its surrogates.
+#[derive(Default)]
+pub(super) struct Grown {
+    pub reason: Option<StopReason>,
+    /// Those of every output, of a run with swaps.
+    pub surrogates: Option<Vec<Option<SurrogateEstimates>>>,
+    pub plain: Option<Arc<PlainOutputs>>,
+}
+
+impl Grown {
+    fn stopped(reason: StopReason, surrogates: Vec<Option<SurrogateEstimates>>) -> Self {
+        Self { reason: Some(reason), surrogates: Some(surrogates), plain: None }
+    }
+}
 
 /// Maximum number of base samples to which a run grows for the rare levels of factors.
 const MAX_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
@@ -36,14 +50,17 @@ pub(super) struct Growth<'a> {
 }
 
 impl Growth<'_> {
-    /// Runs the model and its low-fidelity models; returns why they stopped and the surrogate estimates, if they grow.
-    pub fn run_all(&mut self) -> Result<Option<Grown>, RunError> {
+    /// Runs the model and its low-fidelity models.
+    pub fn run_all(&mut self) -> Result<Grown, RunError> {
         let target = &self.study.target;
+        if self.study.design.is_plain() {
+            return self.grow_plain();
+        }
         self.run.grow_to(self.study.design.points_per_replicate(), self.on_progress)?;
         if target.accuracy.is_none() {
             self.begin_low_fidelity()?;
         }
-        if target.grows() { self.grow().map(Some) } else { Ok(None) }
+        if target.grows() { self.grow() } else { Ok(Grown::default()) }
     }
 
     /// Starts the first runs of low-fidelity models. One that is no cheaper is dropped in a run that grows.
@@ -72,7 +89,7 @@ impl Growth<'_> {
             let first = self.run.install(|| self.stage(&[]));
             if let Some(stopped) = self.reason_to_stop(&first).filter(meets_target) {
                 self.low_fidelity.clear();
-                return Ok((stopped, first.surrogates));
+                return Ok(Grown::stopped(stopped, first.surrogates));
             }
             self.begin_low_fidelity()?;
             let best = self.run.install(|| self.best_low_fidelity(seconds));
@@ -89,7 +106,7 @@ impl Growth<'_> {
                 continue;
             }
             if let Some(stopped) = stopped {
-                return Ok((stopped, stage.surrogates));
+                return Ok(Grown::stopped(stopped, stage.surrogates));
             }
             let start = Instant::now();
             self.run.grow_to(self.run.points_per_replicate() * 2, self.on_progress)?;
@@ -168,7 +185,7 @@ impl Growth<'_> {
         // With one replicate there is no spread for any points.
         let has_none =
             replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
-        let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && self.fails_too_often();
+        let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && fails_too_often(self);
         let is_reached = accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
         let design = longest.with_points(run.points_per_replicate()).ok().filter(|design| {
             is_reached && stage.is_checked && !stage.is_doubted && design.distinct_values() >= study.needed_values()
@@ -193,17 +210,16 @@ impl Growth<'_> {
             },
         })
     }
+}
 
-    /// Returns whether more runs failed than an output with indices may have.
-    fn fails_too_often(&self) -> bool {
-        let run = &self.run;
-        let rows = run.points_per_replicate() * run.design().rows_per_point() * run.totals().len() as u64;
-        let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
-        (0..outputs).any(|number| {
-            let failed: u64 = run.totals().iter().map(|totals| totals.outputs[number].runs_failed).sum();
-            failed as f64 / rows as f64 > self.study.analysis.max_failed
-        })
-    }
+/// Returns whether more runs failed than an output with indices may have.
+pub(super) fn fails_too_often(Growth { study, run, .. }: &Growth<'_>) -> bool {
+    let rows = run.points_per_replicate() * run.design().rows_per_point() * run.totals().len() as u64;
+    let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
+    (0..outputs).any(|number| {
+        let failed: u64 = run.totals().iter().map(|totals| totals.outputs[number].runs_failed).sum();
+        failed as f64 / rows as f64 > study.analysis.max_failed
+    })
 }
 
 fn meets_target(reason: &StopReason) -> bool {

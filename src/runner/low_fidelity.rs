@@ -8,7 +8,7 @@ use super::journal::{self, RunJournal};
 use crate::analysis::{LowFidelityTotals, outputs_kept};
 use crate::correction::ErrorShares;
 use crate::correction::IndependentOutputs;
-use crate::design::{Design, DesignSettings, Rows};
+use crate::design::{Design, DesignSettings};
 use crate::model::{Messages, Model, RunContext};
 use crate::run::journal::with_ending;
 use crate::run::{GrowingRun, Job, RunError};
@@ -62,7 +62,7 @@ impl<'a> LowFidelityStudy<'a> {
             None => BASE_SAMPLES,
         };
         let settings = DesignSettings { base_samples, seed: settings.seed ^ SEED, ..settings.clone() };
-        let rows = Rows { plain_rows: 0, ..study.design.requested().clone() };
+        let rows = study.design.requested().clone();
         let design = Design::new(settings, study.design.factors(), rows).map_err(RunError::Design)?;
         Ok(Self {
             low,

@@ -1,11 +1,12 @@
 //! Running a study: from the points to the result in one call.
 
-mod accuracy;
 mod growth;
 mod journal;
 mod low_fidelity;
 mod merge;
 mod once;
+mod plain_growth;
+mod search;
 mod worker;
 
 use std::path::{Path, PathBuf};
@@ -184,8 +185,10 @@ impl<'a> Runner<'a> {
     /// interrupted. Otherwise failed rows are part of the result.
     pub fn run(self) -> Result<StudyResult, RunError> {
         let context = self.context();
-        let result = if self.study.target.accuracy.is_some() {
-            accuracy::run_accurately(&self, &context)
+        // Other rows than those of the study are not in a store.
+        let has_plain_rows = self.study.design.is_plain() && self.store.is_none();
+        let result = if self.study.target.accuracy.is_some() || has_plain_rows {
+            search::run_cheaply(&self, &context)
         } else {
             self.open(None, context.messages()).and_then(|journal| Ok(self.analyse(&context, journal)?.0))
         };

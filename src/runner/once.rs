@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Runner;
-use super::growth::Growth;
+use super::growth::{Grown, Growth};
 use super::journal::{self, RunJournal};
 use super::low_fidelity::{LowFidelityRun, LowFidelityStudy};
 use crate::analysis::{FinishedRun, LowFidelityTotals, result};
@@ -74,7 +74,7 @@ impl<'a> Runner<'a> {
         let mut growth = Growth { study, run, low_fidelity, on_progress: &on_progress };
         let grown = growth.run_all();
         // An error of the run takes precedence over one of its journal.
-        let (stopped, surrogates) = grown.and_then(|grown| journal.finish().map(|()| grown))?.unzip();
+        let Grown { reason: stopped, surrogates, plain } = grown.and_then(|grown| journal.finish().map(|()| grown))?;
         let Growth { run, low_fidelity, .. } = growth;
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
         let low_fidelity: Vec<LowFidelityTotals<'_>> = low_fidelity.iter().map(LowFidelityRun::totals).collect();
@@ -85,6 +85,7 @@ impl<'a> Runner<'a> {
             replicates: run.totals(),
             low_fidelity: &low_fidelity,
             surrogates: surrogates.as_deref(),
+            plain: plain.as_ref(),
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };

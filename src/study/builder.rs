@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::options::{DEFAULT_RESAMPLES, rows};
+use super::options::DEFAULT_RESAMPLES;
 use super::rules::{self, Length, wrong};
 use super::subject::{CustomSubject, LowFidelity, Subject};
 use super::{AnalysisOptions, BuildError, Study, StudySource, SurrogateChoice, Target};
-use crate::design::{Design, DesignSettings, Sampler};
+use crate::design::{DesignSettings, Sampler};
 use crate::model::Model;
 use crate::space::{Dependence, Distribution, Factor, Space};
 use crate::surrogate::MIN_NETS;
@@ -122,7 +122,7 @@ impl StudyBuilder {
     }
 
     /// Sets the number of model runs in all, instead of [`base_samples`](Self::base_samples): the best design with at
-    /// most this many. With surrogates, up to a third are at base samples, the others at points for the fit.
+    /// most this many. Up to 4096 are plain rows, to which surrogates are fitted, unless these explain too little.
     ///
     /// ```
     /// use apportion::{Distribution, Study, function_model};
@@ -203,9 +203,8 @@ impl StudyBuilder {
         rules::check_dependent(&analysis, &space, &self.low_fidelities)?;
         length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
-        let (base_samples, plain_rows) = length.sizes(&analysis, &space, sampler, replicates)?;
-        let settings = DesignSettings { sampler, base_samples, replicates, seed: self.seed };
-        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, plain_rows))?;
+        let settings = DesignSettings { sampler, base_samples: 0, replicates, seed: self.seed };
+        let design = length.design(&analysis, &space, outputs, settings, self.low_fidelities.is_empty())?;
         let design = length.target.within_max_runs(design).or_else(|min_runs| {
             let expected = format!("{min_runs} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
@@ -213,9 +212,9 @@ impl StudyBuilder {
         rules::check_low_fidelities(&self.low_fidelities, &*model, &space, length.target)?;
         let mut notes = Vec::new();
         let used = design.settings().base_samples;
-        if length.base_samples.is_some_and(|requested| requested != used) {
+        if let Some(requested) = length.base_samples.filter(|requested| *requested != used) {
             notes.push(format!(
-                "{base_samples} base samples are not a multiple of {replicates} replicates: {used} are used"
+                "{requested} base samples are not a multiple of {replicates} replicates: {used} are used"
             ));
         }
         if analysis.surrogate == SurrogateChoice::On && replicates < MIN_NETS as u64 {

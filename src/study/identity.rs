@@ -39,7 +39,6 @@ impl Study {
             "rows_per_point": design.rows_per_point(),
             "swaps": swaps,
             "ba": design.has_ba(),
-            "plain_rows": design.plain_rows(),
         });
         if let Some(copula) = self.space.copula() {
             points["copula"] = json!(sha256(json!(copula.rows()).to_string().as_bytes()));

@@ -28,7 +28,7 @@ use crate::effect::{Layout, NoiseLayout};
 use crate::model::Model;
 use crate::run::{BLOCK, ModelFiles};
 use crate::space::Space;
-use crate::surrogate::fewest_points;
+use crate::surrogate::MIN_POINTS;
 use crate::uncertainty::RULE_OF_THREE;
 
 /// The smallest region of a factor's range that a run with an accuracy must not miss, for models that take their time
@@ -172,8 +172,19 @@ impl Study {
     /// # Errors
     /// [`DesignError`] if the design is invalid.
     pub fn with_design(self, settings: DesignSettings, analysis: AnalysisOptions) -> Result<Self, DesignError> {
-        let design = Design::new(settings, self.design.factors(), rows(&analysis, &self.space, 0))?;
+        let design = Design::new(settings, self.design.factors(), rows(&analysis, &self.space))?;
         Ok(Self { design, analysis, ..self })
+    }
+
+    /// Returns the design with the swaps of all effects at as many base points.
+    pub(crate) fn with_swaps(&self, base_samples: u64) -> Result<Design, DesignError> {
+        let settings = DesignSettings { base_samples, ..self.design.settings().clone() };
+        Design::new(settings, self.design.factors(), rows(&self.analysis, &self.space))
+    }
+
+    /// Returns the number of rows with swaps of a base point.
+    pub(crate) fn swapped_rows(&self) -> u64 {
+        self.with_swaps(2 * self.design.settings().replicates).map_or(1, |design| design.rows_per_point() - 2)
     }
 
     /// Returns the study without low-fidelity models.
@@ -248,7 +259,7 @@ impl Study {
 
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
-        let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
+        let has_points = self.target.grows() || design.points_per_replicate() >= MIN_POINTS as u64;
         let DesignSettings { sampler, replicates, .. } = *design.settings();
         let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
         fits && match self.automatic_values(design) {
@@ -274,8 +285,7 @@ impl Study {
         let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
         let model = self.model();
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        (is_automatic && design.plain_rows() == 0 && self.low_fidelities.is_empty())
-            .then(|| (values, model.concurrency().is_some()))
+        (is_automatic && self.low_fidelities.is_empty()).then(|| (values, model.concurrency().is_some()))
     }
 
     /// Returns whether surrogates are tried on a part of a run of `design` before they are fitted to it: for fast
@@ -286,7 +296,7 @@ impl Study {
 
     /// Returns whether the estimates need the outputs of every run, not only their sums.
     pub fn needs_outputs(&self) -> bool {
-        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design)
+        self.analysis.intervals.keeps_outputs() || self.design.is_plain() || self.uses_surrogate(&self.design)
     }
 
     /// Returns the current choices, such as the protocol of a program, with the keys of the study file.

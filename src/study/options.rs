@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
+use crate::design::{Design, DesignSettings, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, proper_subsets};
 use crate::given::Measure;
 use crate::result::Warning;
@@ -107,17 +107,40 @@ impl AnalysisOptions {
         warnings
     }
 
-    /// Returns whether surrogates may correct the indices (their polynomials are orthogonal only for independent factors,
-    /// and do not give Shapley effects), at points of `sampler` in `replicates` replicates.
+    /// Returns whether surrogates may correct the indices (not Shapley effects), at points of `sampler` in `replicates`
+    /// replicates.
     pub(crate) fn takes_surrogates(&self, sampler: Sampler, replicates: u64, space: &Space) -> bool {
+        self.has_polynomials(sampler, replicates, space) && !self.has_shapley(space)
+    }
+
+    /// Returns whether surrogates of plain rows give all indices that are requested, of so many outputs.
+    pub(crate) fn takes_plain_rows(&self, settings: &DesignSettings, space: &Space, outputs: usize) -> bool {
+        self.has_polynomials(settings.sampler, settings.replicates, space)
+            && outputs <= MAX_PLAIN_OUTPUTS
+            && self.estimators.is_empty()
+            && !self.dummy
+            && space.noise().is_none()
+    }
+
+    /// Returns whether there are polynomials for surrogates: they are orthogonal only for independent factors.
+    fn has_polynomials(&self, sampler: Sampler, replicates: u64, space: &Space) -> bool {
         self.surrogate != SurrogateChoice::Off
             && self.intervals == IntervalMethod::Nets
             && sampler != Sampler::LatinHypercube
             && replicates >= MIN_NETS as u64
             && space.copula().is_none()
-            && !self.has_shapley(space)
     }
 }
+
+/// Maximum number of outputs of plain rows: each is fitted alone.
+const MAX_PLAIN_OUTPUTS: usize = 32;
+
+/// Maximum number of plain rows: of more, base points with swaps correct what surrogates leave.
+pub(crate) const MAX_PLAIN_ROWS: u64 = 1 << 12;
+
+/// Minimum number of plain rows, and for each factor.
+pub(crate) const MIN_PLAIN_ROWS: u64 = 24;
+pub(crate) const PLAIN_ROWS_OF_FACTOR: u64 = 5;
 
 /// Maximum number of rows times outputs up to which surrogates are fitted by default.
 pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 16;
@@ -228,31 +251,17 @@ pub(super) const RESAMPLES: RangeInclusive<usize> = 100..=1_000_000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 
-/// Returns the base samples and plain rows of each for at most `runs` runs: a power of two in each of `replicates`,
-/// with `runs_per_point` runs without plain rows. For surrogates an eighth to a third of the runs, preferably more, are
-/// at base samples, and the others at plain rows, used only to fit them. An error with the runs of the smallest design
-/// if that takes more.
-pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
-    const SHARE: u64 = 3;
+/// Returns the base samples for at most `runs` runs, `runs_per_point` of each: a power of two in each of `replicates`. An
+/// error with the runs of the smallest design if that takes more.
+pub(super) fn base_samples_within(runs: u64, runs_per_point: u64, replicates: u64) -> Result<u64, u64> {
     let runs_of_a_point = replicates.saturating_mul(runs_per_point);
-    let min_runs = runs_of_a_point.saturating_mul(2);
-    if min_runs > runs {
-        return Err(min_runs);
-    }
-    let max_runs = if for_surrogates { runs / SHARE } else { runs };
-    let mut points: u64 = 2;
-    while runs_of_a_point.saturating_mul(2 * points) <= max_runs {
-        points *= 2;
-    }
-    let base_samples = points * replicates;
-    let plain = (runs - runs_of_a_point * points) / base_samples;
-    let plain = if for_surrogates { plain.min(u64::from(MAX_PLAIN_ROWS)) as u32 } else { 0 };
-    Ok((base_samples, plain))
+    let points = runs / runs_of_a_point.max(1);
+    if points < 2 { Err(runs_of_a_point.saturating_mul(2)) } else { Ok((1 << points.ilog2()) * replicates) }
 }
 
 /// Returns the rows for the analysis: what has indices, the further groups, the subsets; for dependent factors these once more,
 /// redrawn; the dummy; and the subsets that Shapley effects need.
-pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
+pub(super) fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
     let players: Vec<Swap> = analysis.members(space).into_iter().map(|member| member.factors).collect();
     let groups = analysis.further_groups(space).into_iter().map(|group| group.factors);
     let mut swaps: Vec<Swap> = players.iter().cloned().chain(groups).chain(analysis.subsets.iter().cloned()).collect();
@@ -273,7 +282,7 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     }
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
-    Rows { swaps, ba, second_order, plain_rows, copula, redrawn }
+    Rows { swaps, ba, second_order, copula, redrawn }
 }
 
 #[cfg(test)]

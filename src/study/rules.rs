@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, rows, split};
+use super::options::{
+    MAX_OUTPUTS_OF_MEASURES, MAX_PLAIN_ROWS, MIN_PLAIN_ROWS, PLAIN_ROWS_OF_FACTOR, RESAMPLES, base_samples_within, rows,
+};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
@@ -249,29 +251,42 @@ impl Length {
         Ok(())
     }
 
-    /// Returns the base samples, and plain rows of each: with a number of runs those of the best design within it.
-    pub(super) fn sizes(
+    /// Returns the design: with a number of runs the plain rows or the best base samples within it.
+    pub(super) fn design(
         &self,
         options: &AnalysisOptions,
         space: &Space,
-        sampler: Sampler,
-        replicates: u64,
-    ) -> Result<(u64, u32), BuildError> {
+        outputs: usize,
+        settings: DesignSettings,
+        takes_plain: bool,
+    ) -> Result<Design, BuildError> {
+        let (factors, replicates) = (space.factors().len(), settings.replicates);
+        let with = |base_samples| {
+            let settings = DesignSettings { base_samples, ..settings.clone() };
+            Design::new(settings, factors, rows(options, space))
+        };
         let Some(runs) = self.runs else {
-            return Ok((self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)), 0));
+            return Ok(with(self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)))?);
         };
-        let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
-        // Errors in the rows are reported when the design is created.
-        let Ok(one) = Design::new(one, space.factors().len(), rows(options, space, 0)) else {
-            return Ok((2 * replicates, 0));
-        };
-        let for_surrogates = options.takes_surrogates(sampler, replicates, space);
-        split(runs, one.rows_per_point(), replicates, for_surrogates).or_else(|min_runs| {
-            let expected = format!(
-                "{min_runs} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use given \
-                 data at random points)"
-            );
-            wrong("runs", expected, runs)
-        })
+        // Errors in the rows are those of this one too.
+        let smallest = with(replicates.saturating_mul(2))?;
+        let is_plain = takes_plain && options.takes_plain_rows(&settings, space, outputs) && runs <= MAX_PLAIN_ROWS;
+        if is_plain {
+            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64).next_multiple_of(2 * replicates);
+            if runs < fewest {
+                let expected =
+                    format!("{fewest} or more: fewer tell only which factors have no effect (`apportion screen`)");
+                return wrong("runs", expected, runs);
+            }
+            return Ok(smallest.plain(runs)?);
+        }
+        let base_samples = base_samples_within(runs, smallest.rows_per_point(), replicates).or_else(|min_runs| {
+            wrong(
+                "runs",
+                format!("{min_runs} or more, the runs of 2 base samples in each of {replicates} replicates"),
+                runs,
+            )
+        })?;
+        Ok(with(base_samples)?)
     }
 }

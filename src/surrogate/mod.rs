@@ -28,11 +28,8 @@ use crate::space::Space;
 /// Minimum number of nets: the number of terms of a surrogate of the others is chosen by leaving out one of them.
 pub(crate) const MIN_NETS: usize = 3;
 
-/// Minimum number of base points of a net.
-const MIN_POINTS: usize = 4;
-
-/// The same if each has plain rows, which are more informative than rows of a base point that share their columns.
-const MIN_POINTS_WITH_PLAIN_ROWS: usize = 2;
+/// Minimum number of base points of a net to which surrogates are fitted.
+pub(crate) const MIN_POINTS: usize = 4;
 
 /// Maximum number of rows of all nets together to which surrogates are fitted: more hardly change the coefficients of
 /// about a hundred terms, and the residuals of an expansion are computed from all rows.
@@ -46,11 +43,6 @@ pub(crate) fn families(space: &Space) -> Vec<Family> {
 /// Returns whether there are enough nets, and the points are nets.
 pub(crate) fn takes_surrogates(design: &Design, replicates: usize) -> bool {
     design.settings().sampler != Sampler::LatinHypercube && replicates >= MIN_NETS
-}
-
-/// Returns the minimum number of base points of a net of `design` to which surrogates are fitted.
-pub(crate) fn fewest_points(design: &Design) -> usize {
-    if design.plain_rows() > 0 { MIN_POINTS_WITH_PLAIN_ROWS } else { MIN_POINTS }
 }
 
 /// Returns the polynomials to try for factors with those of `families`, in order: in the values of factors without bounds,

@@ -226,8 +226,8 @@ fn one_way_to_size_a_run_takes_the_place_of_another() {
     };
     assert!(loaded(&["accuracy=0.01"]).target().accuracy.is_some());
     assert_eq!(loaded(&["accuracy=0.01", "design.base_samples=64"]).target(), Target::default());
-    let split = loaded(&["design.runs=200"]);
-    assert!(split.design().plain_rows() > 0 && split.design().rows() <= 200);
+    let plain = loaded(&["design.runs=203"]);
+    assert!(plain.design().is_plain() && plain.design().rows() == 200);
 }
 
 #[test]

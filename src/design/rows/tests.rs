@@ -16,7 +16,6 @@ fn definition(kind: RowKind, factors: usize, swaps: &[&[usize]]) -> Vec<Matrix> 
         RowKind::B => vec![B; factors],
         RowKind::Ab(s) => mixed(A, s, B),
         RowKind::Ba(s) => mixed(B, s, A),
-        RowKind::Plain(number) => vec![Matrix::Plain(number); factors],
     }
 }
 

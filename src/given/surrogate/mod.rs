@@ -8,16 +8,15 @@ mod estimates;
 mod marginals;
 
 use coordinates::Coordinates;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
+use crate::correction::PlainFit;
 use crate::space::Distribution;
-use crate::surrogate::chaos::{Chaos, Factor, degree_at, folds_at};
-use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::{Effects, Expansion, NamedTerm, Term, leading_terms};
+use crate::surrogate::chaos::{degree_at, folds_at};
+use crate::surrogate::{Effects, NamedTerm};
 use crate::uncertainty::Estimate;
 
 /// Maximum number of rows that are used.
@@ -181,21 +180,6 @@ struct Job<'a> {
     uses_columns: bool,
 }
 
-/// A fit, and the error of its indices that no rows show.
-struct Fitted {
-    chaos: Chaos,
-    expansion: Expansion,
-    extrapolation: ExtrapolationError,
-    polynomials_of: &'static str,
-}
-
-impl Fitted {
-    /// Returns the share of the variance that is left plus the error that no rows show.
-    fn unknown(&self) -> f64 {
-        self.chaos.rest + self.extrapolation.variance
-    }
-}
-
 impl Job<'_> {
     /// Computes the surrogate estimates of the outputs `y`.
     fn output(&self, y: &[f64]) -> Result<SurrogateOutput, NoVariance> {
@@ -203,29 +187,16 @@ impl Job<'_> {
         let sd = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
         let offset = offset(y, &z) / sd;
         let z: Vec<f64> = z.iter().map(|z| z / sd).collect();
-        let mut best = self.fitted(&self.coordinates[0], &z, offset);
+        let inputs = 0..self.names.len();
+        let effects = Effects { swaps: inputs.map(|input| vec![input]).collect(), pairs: Vec::new() };
+        let fitted = |of: &Coordinates| PlainFit::new(&of.families, &of.values, &z, Some(offset), &effects);
+        let (mut best, mut name) = (fitted(&self.coordinates[0]), self.coordinates[0].name);
         for coordinates in &self.coordinates[1..] {
-            let fitted = self.fitted(coordinates, &z, offset);
-            if fitted.unknown() < best.unknown() {
-                best = fitted;
+            let next = fitted(coordinates);
+            if next.unknown() < best.unknown() {
+                (best, name) = (next, coordinates.name);
             }
         }
-        Ok(estimates::surrogate_output(&best, self.names, self.uses_columns))
-    }
-
-    fn fitted(&self, Coordinates { families, values, name }: &Coordinates, z: &[f64], offset: f64) -> Fitted {
-        let degree = degree_at(z.len());
-        let factors = families.par_iter().zip(values).map(|(family, values)| Factor::new(family, values, degree));
-        let chaos = Chaos::new(factors.collect(), z, offset);
-        // Steps have no tails.
-        let factors = &chaos.basis().factors;
-        let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));
-        let (terms, coefficients): (Vec<Term>, Vec<f64>) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
-        let expansion = Expansion { terms: terms.into(), coefficients };
-        let effects = Effects { swaps: (0..families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
-        let expansions = [expansion];
-        let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, &effects);
-        let [expansion] = expansions;
-        Fitted { chaos, expansion, extrapolation, polynomials_of: name }
+        Ok(estimates::surrogate_output(&best, name, self.names, self.uses_columns))
     }
 }

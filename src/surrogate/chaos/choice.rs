@@ -37,23 +37,41 @@ const ROUNDING: f64 = 1e-12;
 const UNBOUNDED: f64 = 10.0;
 
 /// A fitted expansion of an output of variance 1.
+#[derive(Debug)]
 pub(crate) struct Chaos {
     listed: Listed,
     coefficients: Vec<f64>,
     /// Its variances, corrected by the rows to which it is not fitted.
     pub variances: EffectVariances,
+    /// For each part of the rows that are fitted the same without it.
+    of_parts: Vec<FittedPart>,
+    /// What is left of every row by the fit without its part.
+    pub left: Vec<f64>,
     /// Share of the variance left on held-out rows.
     pub rest: f64,
     /// Whether it has a product as one term.
     has_product: bool,
+    /// The unit of what the product leaves, to which the other terms are fitted.
+    scale: f64,
+}
+
+/// A fit without one part of the rows.
+#[derive(Debug)]
+struct FittedPart {
+    coefficients: Vec<f64>,
+    variances: EffectVariances,
 }
 
 impl Chaos {
-    /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows. The sum of `y` and `offset` may have one sign.
-    pub fn new(factors: Vec<Factor>, y: &[f64], offset: f64) -> Self {
+    /// Fits `y`, of mean 0 and variance 1, by `factors` at the same rows, and with a product if the sum of `y` and `offset`
+    /// has one sign.
+    pub fn new(factors: Vec<Factor>, y: &[f64], offset: Option<f64>) -> Self {
         let parts = parts_of_rows(y.len().min(MAX_ROWS));
         let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
-        let mut chosen = if best.rest > EXACT { best.or_with_knots().or_with_product(y, offset) } else { best };
+        let mut chosen = if best.rest > EXACT { best.or_with_knots() } else { best };
+        if let Some(offset) = offset.filter(|_| chosen.rest > EXACT) {
+            chosen = chosen.or_with_product(y, offset);
+        }
         chosen.correct(y);
         chosen
     }
@@ -126,28 +144,79 @@ impl Chaos {
             .map(|(term, c)| 2.0 * c * product(&basis.values(term, others.clone()), &left) / others.len() as f64)
             .collect();
         let mut variances = self.variances.clone();
-        terms.iter().zip(moves).for_each(|((term, _), more)| variances.add(term, more));
+        for ((term, _), more) in terms.iter().zip(moves) {
+            let set: Vec<usize> = term.iter().map(|(factor, _)| *factor).collect();
+            variances.add(&set, more);
+        }
         self.variances = variances;
     }
 
     fn chosen(prior: Prior, product: Option<&Product>) -> Self {
         let listed = Listed::new(prior);
-        let Held { coefficients, rest, .. } = Held::new(&listed, product);
-        let (variances, coefficients) = match product {
-            Some(product) => product.joined(&listed, &coefficients),
+        let Held { coefficients, of_parts, rest, .. } = Held::new(&listed, product);
+        let joined = |part: usize, coefficients: Vec<f64>| match product {
+            Some(product) => product.joined(&listed, part, &coefficients),
             None => (listed.variances(&coefficients), coefficients),
         };
-        let rest = rest * product.map_or(1.0, |product| product.scale() * product.scale());
-        Self { listed, coefficients, variances, rest, has_product: product.is_some() }
+        let scale = product.map_or(1.0, Product::scale);
+        let mut left = vec![0.0; listed.prior.rows];
+        for (part, fit) in of_parts.iter().enumerate() {
+            let (_, out) = listed.prior.basis.without(part);
+            out.iter().zip(&fit.left).for_each(|(row, e)| left[*row] = e * scale);
+        }
+        let (variances, coefficients) = joined(of_parts.len(), coefficients);
+        let of_parts = of_parts.into_par_iter().enumerate().map(|(part, fit)| {
+            let (variances, coefficients) = joined(part, fit.coefficients);
+            FittedPart { coefficients, variances }
+        });
+        let of_parts = of_parts.collect();
+        let (rest, has_product) = (rest * scale * scale, product.is_some());
+        Self { listed, coefficients, variances, of_parts, left, rest, has_product, scale }
     }
 
-    /// Returns half the width of the intervals of its indices.
+    /// Returns a bound on the error of its indices that grows with what it leaves.
     pub fn half_width(&self) -> f64 {
-        let Self { listed, rest, .. } = self;
+        self.rest + 4.0 * (self.rest / self.listed.prior.basis.rows as f64).sqrt() + self.unseen()
+    }
+
+    /// Returns the share of the variance that no rows show, where it may be wrong.
+    pub fn unseen(&self) -> f64 {
         // A close fit is right where there are no rows too, and a product has its variance from integrals.
-        let share = (CLOSE * rest.sqrt()).min(1.0);
-        let unseen = if self.has_product { 0.0 } else { share * listed.unseen(&self.coefficients) };
-        rest + 4.0 * (rest / listed.prior.basis.rows as f64).sqrt() + unseen + self.open_at_steps() + ROUNDING
+        let share = (CLOSE * self.rest.sqrt()).min(1.0);
+        let unseen = if self.has_product { 0.0 } else { share * self.listed.unseen(&self.coefficients) };
+        unseen + self.open_at_steps() + ROUNDING
+    }
+
+    /// Returns the sets of factors that have terms.
+    pub fn sets(&self) -> &[Vec<usize>] {
+        &self.listed.sets
+    }
+
+    /// Returns the sum of the terms of each set at the rows that are fitted, by the fit without their part.
+    pub fn values_of_sets(&self) -> Vec<Vec<f64>> {
+        let of_parts: Vec<Vec<f64>> = self.of_parts.iter().map(|of| of.coefficients.clone()).collect();
+        self.listed.values_of_sets(&of_parts)
+    }
+
+    /// Returns the outputs at these rows.
+    pub fn fitted_outputs(&self) -> &[f64] {
+        &self.listed.prior.y[..self.listed.prior.rows]
+    }
+
+    /// Returns the variance that the prior takes for noise.
+    pub fn noise(&self) -> f64 {
+        self.scale * self.scale * self.listed.prior.noise_variance()
+    }
+
+    /// Returns the variance of the terms of each set, and those by the fits without each part.
+    pub fn variances_of_sets(&self) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let of_parts = self.of_parts.par_iter().map(|of| self.listed.variances_of_sets(&of.coefficients));
+        (self.listed.variances_of_sets(&self.coefficients), of_parts.collect())
+    }
+
+    /// Returns the variances of the fits without each part.
+    pub fn variances_of_parts(&self) -> impl Iterator<Item = &EffectVariances> {
+        self.of_parts.iter().map(|of| &of.variances)
     }
 
     /// Returns first-order and total indices. What is left is rather an interaction than a part of one factor alone,
@@ -163,6 +232,8 @@ impl Chaos {
 struct Held {
     way: usize,
     coefficients: Vec<f64>,
+    /// The fits without each part.
+    of_parts: Vec<Fit>,
     /// Mean square that it leaves.
     rest: f64,
 }
@@ -175,7 +246,7 @@ impl Held {
         let (mut all, mut rests) = fits(listed, parts + 1, product);
         let Fits { mut of_ways, left } = all.swap_remove(parts);
         let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
-        let last = rests.len() - 1;
+        let (last, held) = (rests.len() - 1, best_way(&rests));
         if is_unbounded(listed, &of_ways[last]) {
             rests[last] = f64::INFINITY;
         } else if left < 0.01 * least {
@@ -183,7 +254,9 @@ impl Held {
             rests[last] = least;
         }
         let way = best_way(&rests);
-        Self { way, coefficients: of_ways.swap_remove(way).coefficients, rest: rests[way] }
+        let held = if way == last { held } else { way };
+        let of_parts = all.into_iter().map(|mut fits| fits.of_ways.swap_remove(held)).collect();
+        Self { way, coefficients: of_ways.swap_remove(way).coefficients, of_parts, rest: rests[way] }
     }
 }
 /// Returns the fits without each of the first `parts` parts of the rows, of what a `product` fitted to the same rows
@@ -194,7 +267,7 @@ pub(super) fn fits(listed: &Listed, parts: usize, product: Option<&Product>) -> 
         listed.fits(part, left.as_ref().unwrap_or(&listed.prior.y))
     });
     let all: Vec<Fits> = parts.collect();
-    let rest = |way: usize| all.iter().map(|fits| fits.of_ways[way].square).sum::<f64>() / listed.prior.rows as f64;
+    let rest = |way: usize| all.iter().map(|fits| fits.of_ways[way].square()).sum::<f64>() / listed.prior.rows as f64;
     let rests = (0..Way::ALL.len()).map(rest).collect();
     (all, rests)
 }

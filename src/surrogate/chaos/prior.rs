@@ -95,6 +95,11 @@ impl Prior {
         2 * self.basis.factors.len()
     }
 
+    /// Returns the variance of the noise.
+    pub fn noise_variance(&self) -> f64 {
+        libm::exp(self.theta[self.noise()])
+    }
+
     fn noise(&self) -> usize {
         self.beta() + 1 + self.order
     }

@@ -84,12 +84,12 @@ impl Product {
         cross / square
     }
 
-    /// Returns the variances of its sum with an expansion of what is left in the terms of `listed`, and the
-    /// coefficients of the sum in these terms.
-    pub fn joined(&self, listed: &Listed, coefficients: &[f64]) -> (EffectVariances, Vec<f64>) {
+    /// Returns the variances of its sum with an expansion of what is left in the terms of `listed`, both fitted without
+    /// one `part`, and the coefficients of the sum in these terms.
+    pub fn joined(&self, listed: &Listed, part: usize, coefficients: &[f64]) -> (EffectVariances, Vec<f64>) {
         let basis = &listed.prior.basis;
-        let (of_logarithm, logs) = self.logs(basis.count_parts());
-        let factor = self.factor(basis.count_parts(), &logs);
+        let (of_logarithm, logs) = self.logs(part);
+        let factor = self.factor(part, &logs);
         let mut of_factors = vec![Vec::new(); basis.factors.len()];
         for (term, c) in self.logarithm.terms.iter().zip(of_logarithm) {
             of_factors[term[0].0].push((term[0].1, c));
@@ -124,7 +124,8 @@ impl Product {
         let mut sums = Vec::with_capacity(coefficients.len());
         for (term, c) in listed.terms.iter().zip(coefficients) {
             let own = centre * term.iter().map(|(i, k)| integrals[*i].ratios[k - 1]).product::<f64>();
-            variances.add(term, 2.0 * own * c * self.scale);
+            let set: Vec<usize> = term.iter().map(|(factor, _)| *factor).collect();
+            variances.add(&set, 2.0 * own * c * self.scale);
             sums.push(own + c * self.scale);
         }
         (variances, sums)

@@ -61,17 +61,18 @@ impl EffectVariances {
         Self { first_order: vec![0.0; factors], total: vec![0.0; factors], all: 0.0 }
     }
 
-    /// Adds a part of the variance of the factors of `term`.
-    pub fn add(&mut self, term: &[(usize, usize)], variance: f64) {
+    /// Adds a part of the variance of a set of factors.
+    pub fn add(&mut self, set: &[usize], variance: f64) {
         self.all += variance;
-        term.iter().for_each(|(factor, _)| self.total[*factor] += variance);
-        if let [(factor, _)] = term {
+        set.iter().for_each(|factor| self.total[*factor] += variance);
+        if let [factor] = set {
             self.first_order[*factor] += variance;
         }
     }
 }
 
 /// The leading terms of a prior at the rows.
+#[derive(Debug)]
 pub struct Listed {
     pub prior: Prior,
     pub terms: Vec<Term>,
@@ -81,8 +82,10 @@ pub struct Listed {
     /// For few rows the covariance of what is not listed, and noise; for many the inner products of the columns in
     /// each part of the rows.
     matrices: Vec<Symmetric>,
-    /// The number of the subset of factors of each term.
+    /// The number of the set of factors of each term.
     subsets: Vec<usize>,
+    /// The sets.
+    pub sets: Vec<Vec<usize>>,
     inner: Vec<Inner>,
 }
 
@@ -90,14 +93,18 @@ pub struct Listed {
 #[derive(Debug, Clone)]
 pub struct Fit {
     pub coefficients: Vec<f64>,
-    /// What they leave of the rows that were left out: the sum of squares.
-    pub square: f64,
+    /// What is left of the rows that were left out.
+    pub left: Vec<f64>,
 }
 
 impl Fit {
     fn new(coefficients: Vec<f64>, predictions: &[f64], held: &[f64]) -> Self {
-        let square = held.iter().zip(predictions).map(|(y, g)| (y - g).powi(2)).sum();
-        Self { coefficients, square }
+        Self { coefficients, left: held.iter().zip(predictions).map(|(y, g)| y - g).collect() }
+    }
+
+    /// Returns the sum of squares of what is left.
+    pub fn square(&self) -> f64 {
+        self.left.iter().map(|e| e * e).sum()
     }
 }
 
@@ -150,8 +157,10 @@ impl Listed {
             *numbers.entry(term.iter().map(|(factor, _)| *factor).collect()).or_insert(next)
         });
         let subsets = subsets.collect();
+        let mut sets = vec![Vec::new(); numbers.len()];
+        numbers.into_iter().for_each(|(set, number)| sets[number] = set);
         let inner = prior.basis.factors.iter().map(Inner::new).collect();
-        Self { prior, terms, variances, columns, matrices, subsets, inner }
+        Self { prior, terms, variances, columns, matrices, subsets, sets, inner }
     }
 
     fn is_small(&self) -> bool {
@@ -259,19 +268,33 @@ impl Listed {
     /// Returns the variances of the expansion with these coefficients.
     pub fn variances(&self, coefficients: &[f64]) -> EffectVariances {
         let mut variances = EffectVariances::zeros(self.prior.basis.factors.len());
-        for members in self.members(coefficients) {
-            variances.add(&self.terms[members[0]], self.variance(&members, coefficients));
-        }
+        self.sets.iter().zip(self.variances_of_sets(coefficients)).for_each(|(set, v)| variances.add(set, v));
         variances
     }
 
-    /// Returns the terms of every subset of factors that have coefficients.
-    fn members(&self, coefficients: &[f64]) -> Vec<Vec<usize>> {
-        let mut of_subsets: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (j, subset) in self.subsets.iter().enumerate().filter(|(j, _)| coefficients[*j] != 0.0) {
-            of_subsets.entry(*subset).or_default().push(j);
+    /// Returns the variance of the terms of each set of factors.
+    pub fn variances_of_sets(&self, coefficients: &[f64]) -> Vec<f64> {
+        self.members(coefficients).iter().map(|members| self.variance(members, coefficients)).collect()
+    }
+
+    /// Returns the sum of the terms of each set of factors at the rows, each with the coefficients of its part of them.
+    pub fn values_of_sets(&self, of_parts: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let parts = &self.prior.basis.parts;
+        let mut values = vec![vec![0.0; parts.len()]; self.sets.len()];
+        for (j, set) in self.subsets.iter().enumerate() {
+            let rows = values[*set].iter_mut().zip(parts).zip(self.columns.column(j));
+            rows.for_each(|((value, part), phi)| *value += of_parts[*part][j] * phi);
         }
-        of_subsets.into_values().collect()
+        values
+    }
+
+    /// Returns for every set of factors its terms that have coefficients.
+    fn members(&self, coefficients: &[f64]) -> Vec<Vec<usize>> {
+        let mut of_sets = vec![Vec::new(); self.sets.len()];
+        for (j, set) in self.subsets.iter().enumerate().filter(|(j, _)| coefficients[*j] != 0.0) {
+            of_sets[*set].push(j);
+        }
+        of_sets
     }
 
     /// Returns the variance of some terms of one subset.

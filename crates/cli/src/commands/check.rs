@@ -299,7 +299,7 @@ fn rows(study: &Study) -> Vec<String> {
     let swaps = design.swaps().len() as u64;
     let ba = if design.has_ba() { swaps } else { 0 };
     let mut rows = vec!["A and B".to_owned()];
-    for (number, kind) in [(swaps, "AB"), (ba, "BA"), (design.plain_rows().into(), "only for surrogates")] {
+    for (number, kind) in [(swaps, "AB"), (ba, "BA")] {
         if number > 0 {
             rows.push(format!("{} {kind}", counted(number, "row")));
         }

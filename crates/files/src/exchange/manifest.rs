@@ -223,6 +223,5 @@ fn matrix(matrix: Matrix) -> String {
     match matrix {
         Matrix::A => "A".to_owned(),
         Matrix::B => "B".to_owned(),
-        Matrix::Plain(number) => format!("plain {}", number + 1),
     }
 }

@@ -330,10 +330,10 @@ pub(super) fn differences(a: &StudyResult, b: &StudyResult) -> Vec<SettingDiffer
     let [of_a, of_b] = [a, b].map(|result| {
         let p = &result.provenance;
         let [base_samples, replicates, seed] = [p.base_samples, p.replicates, p.seed].map(|number| number.to_string());
-        let plain_rows = p.plain_rows.to_string();
-        [p.sampler.name().to_owned(), base_samples, replicates, plain_rows, seed, p.apportion_version.clone()]
+        let rows = if p.plain { "plain" } else { "with swaps" };
+        [p.sampler.name().to_owned(), base_samples, replicates, rows.to_owned(), seed, p.apportion_version.clone()]
     });
-    let names = ["sampler", "base samples", "replicates", "plain rows", "seed", "version"];
+    let names = ["sampler", "base samples", "replicates", "rows", "seed", "version"];
     for (name, (a, b)) in names.into_iter().zip(of_a.into_iter().zip(of_b)) {
         all.push(setting(name, [Some(a), Some(b)]));
     }

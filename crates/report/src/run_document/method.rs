@@ -10,15 +10,18 @@ use crate::format::{grouped, printed, round_significant, significant};
 pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
     let seconds = provenance.wall_seconds;
+    let points = match provenance.plain {
+        true => ("points", format!("one for each run, in {} replicates", provenance.replicates)),
+        false => {
+            ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates))
+        }
+    };
     let mut rows = vec![
         ("model runs", grouped(provenance.model_runs)),
-        ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates)),
+        points,
         ("time", format!("{} s", printed(seconds))),
         ("threads", provenance.threads.to_string()),
     ];
-    if provenance.plain_rows > 0 {
-        rows.insert(2, ("plain rows of each, for surrogates", provenance.plain_rows.to_string()));
-    }
     if seconds > 0.0 {
         let rate = (provenance.model_runs as f64 / seconds).round() as u64;
         rows.push(("runs per second", grouped(rate)));
@@ -83,7 +86,9 @@ fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
          (95 %; `smallest_region`).",
         significant(100.0 * spending.excluded_region)
     ));
-    texts.push("These lines instead of `accuracy` repeat the same run exactly.".to_owned());
+    if lines_to_repeat(result).is_some() {
+        texts.push("These lines instead of `accuracy` repeat the same run exactly.".to_owned());
+    }
     texts
 }
 
@@ -112,10 +117,11 @@ pub(super) fn provenance(result: &StudyResult) -> Vec<(&'static str, String)> {
 /// Returns the lines of a study that repeat a run with an accuracy, to the bit, in place of `accuracy`.
 pub fn lines_to_repeat(result: &StudyResult) -> Option<String> {
     let (provenance, spending) = (&result.provenance, result.spending.as_ref()?);
-    let mut lines = match provenance.plain_rows {
-        0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
-        _ => format!("[design]\nruns = {}\n", provenance.model_runs),
-    };
+    // Plain rows do not depend on times: the accuracy repeats them.
+    if provenance.plain {
+        return None;
+    }
+    let mut lines = format!("[design]\nbase_samples = {}\n", provenance.base_samples);
     lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", spending.surrogate.name()));
     if let [low] = &result.low_fidelity[..] {
         lines.push_str("[fidelity]\n");

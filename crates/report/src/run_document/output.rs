@@ -214,6 +214,14 @@ impl Topics<'_> {
         let Some(record) = &self.output.surrogate else {
             return self.output.surrogate_trial.map(|trial| Part::Text(declined(trial))).into_iter().collect();
         };
+        if record.plain.is_empty() {
+            let text = format!(
+                "A surrogate of {:.0} terms gives the indices. Without a part of the rows it explains {} % of the variance of that part.",
+                record.terms,
+                percent_below(record.explained)
+            );
+            return [vec![Part::Text(text)], tables::surrogate(self.output, record)].concat();
+        }
         let mut text = format!(
             "Polynomials with {:.0} terms, fitted to all replicates but one in turn, explain {} % of the variance of the other; {}; {}.",
             record.terms,

@@ -374,7 +374,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         .text("term", term_label)
         .number("of the variance", |term| format!("{} %", printed(term.share)));
     let mut parts = vec![terms.into()];
-    if let Some(order) = by_total(output) {
+    if let Some(order) = by_total(output).filter(|_| !record.plain.is_empty()) {
         let rows = order.into_iter().map(|(number, index)| (index, record.plain.get(number)));
         let table = Table::from_rows("Indices with and without the surrogate.", rows)
             .text("factor", |(index, _)| name(&index.name))

@@ -17,7 +17,7 @@ fn fitted(factors: usize, rows: usize, family: &Family, f: impl Fn(&[f64]) -> f6
     let mean = apportion_base::sum::mean(&values);
     let sd = (values.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / rows as f64).sqrt();
     let y: Vec<f64> = values.iter().map(|y| (y - mean) / sd).collect();
-    Chaos::new(columns.iter().map(|u| Factor::new(family, u, degree_at(rows))).collect(), &y, mean / sd)
+    Chaos::new(columns.iter().map(|u| Factor::new(family, u, degree_at(rows))).collect(), &y, Some(mean / sd))
 }
 
 /// Returns the largest error of the indices.
