@@ -13,7 +13,9 @@ use std::path::Path;
 use apportion::given::{Column, analyse, surrogate_indices};
 use apportion::model::{Batch, KnownAnswer, RunContext};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
-use apportion::{AnalysisOptions, Distribution, Sampler, Space, Study, StudyBuilder, SurrogateChoice, function_model};
+use apportion::{
+    AnalysisOptions, Distribution, Estimate, Sampler, Space, Study, StudyBuilder, SurrogateChoice, function_model,
+};
 
 const BUDGETS: [u64; 4] = [50, 100, 200, 500];
 const SEEDS: u64 = 50;
@@ -60,6 +62,12 @@ fn builder(name: &str, seed: u64, surrogate: SurrogateChoice) -> StudyBuilder {
     factors.into_iter().fold(start, StudyBuilder::with_factor).analysis(options)
 }
 
+/// Errors of exact indices, and of those of nearly exact surrogates.
+const ROUNDING: f64 = 1e-9;
+
+/// The first-order and the total index of every factor.
+type Found = Vec<(Estimate, Option<Estimate>)>;
+
 /// Squared errors of first-order and of total indices so far, and the seeds with and without numbers.
 #[derive(Default)]
 struct Errors {
@@ -72,22 +80,30 @@ struct Errors {
     without: u64,
     /// Seeds in which the right factor came first.
     leads: u64,
+    /// Intervals, and those that hold the exact index.
+    intervals: u64,
+    held: u64,
 }
 
 impl Errors {
-    fn add(&mut self, found: Option<Vec<(f64, Option<f64>)>>, truth: &[[f64; 2]]) {
+    fn add(&mut self, found: Option<Found>, truth: &[[f64; 2]]) {
         self.seeds += 1;
         let Some(found) = found else {
             self.without += 1;
             return;
         };
         for ((first, total), [s, t]) in found.iter().zip(truth) {
-            self.first += (first - s).powi(2);
-            self.total += total.map_or(0.0, |total| (total - t).powi(2));
+            self.first += (first.estimate - s).powi(2);
+            self.total += total.map_or(0.0, |total| (total.estimate - t).powi(2));
             self.has_total |= total.is_some();
+            for (estimate, exact) in [(Some(first), s), (total.as_ref(), t)] {
+                let Some(interval) = estimate.and_then(|of| of.interval) else { continue };
+                self.intervals += 1;
+                self.held += u64::from(interval.low - ROUNDING <= *exact && *exact <= interval.high + ROUNDING);
+            }
         }
         self.numbers += truth.len() as f64;
-        let weights: Vec<f64> = found.iter().map(|(first, total)| total.unwrap_or(*first)).collect();
+        let weights: Vec<f64> = found.iter().map(|(first, total)| total.unwrap_or(*first).estimate).collect();
         self.leads += u64::from(leads(&weights, truth));
     }
 
@@ -102,7 +118,9 @@ impl Errors {
             none => {
                 let total = if self.has_total { rms(self.total) } else { "–".to_owned() };
                 let none = if none > 0 { format!(" ({} % none)", 100 * none / self.seeds) } else { String::new() };
-                format!("{} / {total} / {leads} %{none}", rms(self.first))
+                let held =
+                    (100 * self.held).checked_div(self.intervals).map_or("–".to_owned(), |held| format!("{held} %"));
+                format!("{} / {total} / {leads} % / {held}{none}", rms(self.first))
             }
         }
     }
@@ -119,10 +137,10 @@ fn leads(weights: &[f64], truth: &[[f64; 2]]) -> bool {
 }
 
 /// First-order and total indices of a run of `study`.
-fn of_run(study: Result<Study, apportion::BuildError>) -> Option<Vec<(f64, Option<f64>)>> {
+fn of_run(study: Result<Study, apportion::BuildError>) -> Option<Found> {
     let analysis = study.ok()?.run().ok()?;
     let indices = analysis.outputs[0].indices.as_ref()?;
-    Some(indices.iter().map(|i| (i.effect.first_order.estimate, Some(i.effect.total.estimate))).collect())
+    Some(indices.iter().map(|i| (i.effect.first_order, Some(i.effect.total))).collect())
 }
 
 /// A table of `rows` random rows, in SI units, and its output.
@@ -157,11 +175,11 @@ fn table(name: &str, seed: u64, rows: u64) -> (Vec<Column>, Vec<Column>, Vec<Dis
 /// The methods, in the order of the table.
 const METHODS: [&str; 6] = [
     "`given-data`, random rows",
-    "`given-data --surrogate`, random rows",
+    "`given-data`, random rows",
     "`screen`",
     "pick-freeze, `surrogate = \"off\"`",
     "pick-freeze with surrogates (the default)",
-    "split design, `runs`",
+    "`runs`",
 ];
 
 fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors) {
@@ -173,7 +191,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let found = analyse(&inputs, &outputs, seed).ok();
             let of = |given: apportion::given::GivenIndices| {
                 let indices = given.outputs[0].indices.as_ref().ok()?;
-                indices.iter().map(|index| Some((index.rank.as_ref()?.estimate, None))).collect::<Option<Vec<_>>>()
+                indices.iter().map(|index| Some((*index.rank.as_ref()?, None))).collect::<Option<Vec<_>>>()
             };
             errors.add(found.and_then(of), truth);
         }
@@ -183,7 +201,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let found = given.and_then(|given| surrogate_indices(&inputs, &outputs, &given, Some(&laws)).ok());
             let found = found.and_then(|found| found.outputs.into_iter().next()?.ok()).filter(|found| found.serves);
             let of = |found: apportion::given::SurrogateOutput| {
-                found.indices.iter().map(|index| (index.first_order.estimate, Some(index.total.estimate))).collect()
+                found.indices.iter().map(|index| (index.first_order, Some(index.total))).collect()
             };
             errors.add(found.map(of), truth);
         }

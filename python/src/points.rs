@@ -23,13 +23,12 @@ pub fn columns(names: Vec<String>, values: &PyReadonlyArray2<'_, f64>) -> PyResu
 
 /// Indices from rows that are independent draws.
 #[pyfunction]
-#[pyo3(signature = (inputs, outputs, *, surrogate, measures, distributions, seed, name, sha256))]
+#[pyo3(signature = (inputs, outputs, *, measures, distributions, seed, name, sha256))]
 #[expect(clippy::too_many_arguments, reason = "by name")]
 pub fn given_data(
     py: Python<'_>,
     inputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
     outputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
-    surrogate: bool,
     measures: bool,
     distributions: Option<&crate::study::Study>,
     seed: u64,
@@ -44,11 +43,10 @@ pub fn given_data(
         let replicates = average_replicates(&mut inputs, &mut outputs).map_err(|error| error.to_string())?;
         let indices = analyse(&inputs, &outputs, seed).map_err(|error| error.to_string())?;
         going_on()?;
-        let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
+        let surrogates = surrogate_indices(&inputs, &outputs, &indices, laws.as_deref());
         going_on()?;
         let facts = GivenFacts { file: name.clone(), sha256, dropped: None, seed };
-        let mut result =
-            build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).after(replicates.as_ref(), None);
+        let mut result = build_given(&indices, &surrogates, &inputs, &outputs, &facts).after(replicates.as_ref(), None);
         if measures {
             result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));
         }

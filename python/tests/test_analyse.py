@@ -353,7 +353,7 @@ def test_screening_sweeps_and_given_data(cube):
     assert study.sweep("x1", points=5).to_dict()["format"] == "apportion-sweep"
     random = np.random.default_rng(1)
     x = random.uniform(-np.pi, np.pi, (2000, 3))
-    given = ap.given_data({"x1": x[:, 0], "x2": x[:, 1], "x3": x[:, 2]}, ishigami(*x.T), surrogate=True, factors=cube)
+    given = ap.given_data({"x1": x[:, 0], "x2": x[:, 1], "x3": x[:, 2]}, ishigami(*x.T), factors=cube)
     measured = ap.given_data(x, ishigami(*x.T), measures=True)
     values = json.loads(measured.to_json())["outputs"][0]["measures"][1]["measures"]
     assert values["delta"]["low"] < values["delta"]["estimate"] and values["r2_hsic"]["p_value"] < 0.05

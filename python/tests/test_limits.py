@@ -149,7 +149,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 x = np.random.default_rng(1).uniform(size=(200000, 6))
 print("begun", flush=True)
 try:
-    ap.given_data(x, x[:, 0], measures=True, surrogate=True)
+    ap.given_data(x, x[:, 0], measures=True)
 except KeyboardInterrupt:
     print("heard", flush=True)
     sys.exit(7)

@@ -39,7 +39,7 @@ def shown():
         "result": (result, {"output": "a"}),
         "screening": (study.screen(8), {"output": "a"}),
         "sweep": (study.sweep(points=5), {"output": "a"}),
-        "given data": (ap.given_data(inputs, inputs["x1"], surrogate=True, measures=True, name="table"), {}),
+        "given data": (ap.given_data(inputs, inputs["x1"], measures=True, name="table"), {}),
         "output": (result["a"], {}),
         "indices": (result["a"].total, {}),
         "pairs": (result["a"].second_order, {}),

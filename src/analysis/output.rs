@@ -55,7 +55,11 @@ pub(super) fn output_result(
     };
     let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
-    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
+    let of_plain = corrected.plain.as_ref().and_then(|plain| plain.moments(number, run.replicates));
+    let (mean, variance) = match of_plain {
+        Some(moments) => (Some(moments.mean), Some(moments.variance)),
+        None => moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count()),
+    };
     let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
     let warnings = output_warnings(run, number, counts, &used, indices.as_mut().ok(), corrected, &samples);
     let mut convergence = Vec::new();

@@ -14,7 +14,7 @@ use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
 use crate::surrogate::{Effects, families};
-use crate::uncertainty::{Estimate, Interval};
+use crate::uncertainty::{Estimate, Interval, OutputMoments};
 
 /// The surrogates of the outputs of a run of plain rows.
 pub(crate) struct PlainOutputs {
@@ -67,6 +67,11 @@ impl PlainOutputs {
         let quantities = self.rows.quantities(fit, &study.layout(), &study.unread(model, number));
         let options = IntervalOptions { ranks, ..interval_options(study) };
         Ok(OutputIndices { surrogate: Some(fit.surrogate_use()), ..of_quantities(quantities, None, &options) })
+    }
+
+    /// Returns the mean and variance of an output of the runs that were fitted, if it varies.
+    pub(super) fn moments(&self, number: usize, replicates: &[Totals]) -> Option<OutputMoments> {
+        self.rows.moments(self.fits[number].as_ref().ok()?, &outputs_kept(replicates, number))
     }
 
     /// Returns the share of the variance that the surrogate of an output leaves of held-out rows, if it varies.

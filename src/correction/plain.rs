@@ -7,9 +7,9 @@ use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, OfPair, Quantit
 use crate::estimate::PointOutputs;
 use crate::surrogate::chaos::{Chaos, Factor, degree_at};
 use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::outputs::ScaledOutput;
+use crate::surrogate::outputs::{Scale, ScaledOutput};
 use crate::surrogate::{Effects, Expansion, Family, Term, choices, leading_terms};
-use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, StandardError};
+use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, OutputMoments, StandardError};
 use rayon::prelude::*;
 
 /// Degrees of freedom of errors that are not those of a few nets.
@@ -106,6 +106,27 @@ impl PlainRows {
             self.quantiles.iter().map(|column| rows.iter().map(|row| column[*row]).collect()).collect();
         let fits = self.choices.iter().map(|families| PlainFit::new(families, &values, &z, None, &self.effects));
         fits.min_by(|a, b| a.unknown().total_cmp(&b.unknown()))
+    }
+
+    /// Returns the mean and variance of the output of a fit to `replicates`.
+    pub fn moments(
+        &self,
+        PlainFit { chaos, extrapolation, .. }: &PlainFit,
+        replicates: &[&PointOutputs],
+    ) -> Option<OutputMoments> {
+        let Scale { mean, sd } = ScaledOutput::new(replicates, 2, None)?.scale;
+        let rows = chaos.basis().rows as f64;
+        let all = vec![1.0; chaos.sets().len()];
+        let of_parts: Vec<f64> = chaos.variances_of_parts().map(|of| of.all).collect();
+        let held_out = HeldOut::new(chaos);
+        let half = held_out.half_widths(&[held_out.spread(&all, 0.0, &of_parts)])[0] + extrapolation.variance;
+        let half_of_mean = NORMAL_QUANTILE * (chaos.rest / rows).sqrt() + extrapolation.mean;
+        let about =
+            |middle: f64, half: f64| Estimate { estimate: middle, interval: Interval::about(middle, half).finite() };
+        Some(OutputMoments {
+            mean: about(mean + sd * chaos.constant(), sd * half_of_mean),
+            variance: about(sd * sd * (chaos.variances.all + chaos.rest * chaos.rest), sd * sd * half),
+        })
     }
 
     /// Computes the quantities of `layout` by a fit. Those of the effects at `unread` positions are exactly 0.

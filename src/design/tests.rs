@@ -119,9 +119,10 @@ fn impossible_designs_are_refused_with_the_reason() {
 #[test]
 fn samples_are_rounded_up_to_whole_replicates() {
     let settings = DesignSettings { base_samples: 1000, replicates: 16, ..DesignSettings::default() };
-    let design = Design::new(settings, 2, Rows::default()).unwrap();
+    let design = Design::new(settings, 2, Rows::plain(vec![vec![0], vec![1]])).unwrap();
     assert_eq!(design.settings().base_samples, 1008);
-    assert!(!design.balanced());
+    let plain = design.plain(100).unwrap();
+    assert!(!design.balanced() && plain.balanced() && plain.rows() == 96);
 }
 
 #[test]

@@ -333,9 +333,6 @@ pub struct AccuracyRecord {
     pub excluded_region: f64,
     /// Total runs of the model, including those of trials.
     pub runs: u64,
-    /// Minimum number of runs for the same half width without surrogates and low-fidelity models, by the intervals of
-    /// the plain indices of this run; `null` if they are unknown.
-    pub plain_runs: Option<u64>,
     /// The reasons.
     #[serde(serialize_with = "with_texts")]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<WithText<AccuracyReason>>"))]

@@ -8,10 +8,7 @@ use crate::design::Design;
 use crate::estimate::{CentralMoments, Undefined};
 use crate::result::StopReason;
 use crate::run::RunError;
-use crate::study::Target;
-
-/// Maximum number of plain rows to which a run grows.
-pub(super) const MAX_GROWN_ROWS: u64 = 1 << 11;
+use crate::study::{MAX_GROWN_ROWS, Target};
 
 /// Rows of a stage as multiples of those of the one before it: fewest and most.
 const LEAST_GROWTH: f64 = 1.125;

@@ -9,13 +9,12 @@
 
 use super::Runner;
 use super::low_fidelity::sibling_path;
-use super::plain_growth::MAX_GROWN_ROWS;
 use crate::design::{Design, DesignSettings};
 use crate::model::RunContext;
 use crate::result::{AccuracyReason, AccuracyRecord, StopReason, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice};
-use crate::uncertainty::{RULE_OF_THREE, largest_half_width};
+use crate::uncertainty::RULE_OF_THREE;
 
 /// Base points of each replicate with which a run with swaps begins, the minimum to which surrogates are fitted.
 const FIRST_POINTS: u64 = 4;
@@ -25,9 +24,6 @@ const MAX_CORRECTED_RUNS: u64 = 1 << 20;
 
 /// Base samples with which a run without surrogates begins.
 const FIRST_UNCORRECTED: u64 = 1 << 10;
-
-/// Fewest plain rows with which a run begins.
-const FIRST_ROWS: u64 = 60;
 
 /// One run of a search.
 #[derive(Clone, Copy, PartialEq)]
@@ -93,13 +89,7 @@ impl Search<'_> {
     fn first_step(&mut self) -> Step {
         let study = self.runner.study;
         let settings = study.design.settings();
-        let outputs = study.model().outputs().len();
-        let is_within = |runs: u64| self.max_runs().is_none_or(|most| runs <= most);
-        let takes_plain = self.low_fidelity.is_empty()
-            && study.analysis.takes_plain_rows(settings, &study.space, outputs)
-            && study.needed_values() <= MAX_GROWN_ROWS
-            && is_within(self.first_rows());
-        if study.design.is_plain() || takes_plain {
+        if study.design.is_plain() {
             return Step::Plain;
         }
         if study.analysis.takes_surrogates(settings.sampler, settings.replicates, &study.space) {
@@ -170,12 +160,6 @@ impl Search<'_> {
         }
     }
 
-    fn first_rows(&self) -> u64 {
-        let study = self.runner.study;
-        let each = 2 * study.design.settings().replicates;
-        study.needed_values().max(FIRST_ROWS).next_multiple_of(each)
-    }
-
     /// Returns the maximum number of runs with surrogates.
     fn max_runs(&self) -> Option<u64> {
         let study = self.runner.study;
@@ -190,10 +174,8 @@ impl Search<'_> {
         let settings = study.design.settings();
         let is_within = |design: &Design, most: Option<u64>| most.is_none_or(|most| design.rows() <= most);
         let (points, surrogate) = match step {
-            Step::Plain if study.design.is_plain() => return Ok(variant),
             Step::Plain => {
-                variant.design = study.design.plain(self.first_rows()).map_err(RunError::Design)?;
-                variant.target.max_runs = self.max_runs();
+                variant.target.max_runs = study.target.accuracy.and(self.max_runs());
                 return Ok(variant);
             }
             Step::Corrected => (FIRST_POINTS, study.analysis.surrogate),
@@ -250,7 +232,6 @@ impl Search<'_> {
             accuracy,
             excluded_region: RULE_OF_THREE / (2 * provenance.base_samples) as f64,
             runs: self.earlier_runs + result.provenance.model_runs,
-            plain_runs: plain_runs(&result, accuracy),
             reasons: self.reasons,
             surrogate: study.analysis.surrogate,
             stated_low_fidelity: self.runner.study.low_fidelities.len(),
@@ -267,21 +248,4 @@ impl Search<'_> {
 fn smallest_explained(result: &StudyResult) -> f64 {
     let surrogates = result.outputs.iter().map(|output| output.surrogate.as_ref());
     surrogates.map(|surrogate| surrogate.map_or(0.0, |used| used.explained)).fold(1.0, f64::min)
-}
-
-/// Computes [`AccuracyRecord::plain_runs`].
-fn plain_runs(result: &StudyResult, accuracy: f64) -> Option<u64> {
-    let mut widest: f64 = 0.0;
-    for output in result.outputs.iter().filter(|output| output.indices.is_some()) {
-        let half_width = match &output.surrogate {
-            None => output.largest_half_width(),
-            Some(_) if result.provenance.plain => None,
-            Some(used) => largest_half_width(
-                used.plain.iter().flat_map(|plain| [plain.effect.first_order, plain.effect.total]).flatten(),
-            ),
-        };
-        widest = widest.max(half_width?);
-    }
-    let runs = result.provenance.model_runs as f64 * (widest / accuracy);
-    (runs.is_finite() && runs < u64::MAX as f64).then_some(runs.ceil() as u64)
 }

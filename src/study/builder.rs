@@ -204,7 +204,10 @@ impl StudyBuilder {
         length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
         let settings = DesignSettings { sampler, base_samples: 0, replicates, seed: self.seed };
-        let design = length.design(&analysis, &space, outputs, settings, self.low_fidelities.is_empty())?;
+        let has_cheaper =
+            !self.low_fidelities.is_empty() || length.target.accuracy.is_some() && !self.subject.cheaper().is_empty();
+        let first_rows = (!has_cheaper).then(|| length.target.needed_values(model.is_slow()));
+        let design = length.design(&analysis, &space, outputs, settings, first_rows)?;
         let design = length.target.within_max_runs(design).or_else(|min_runs| {
             let expected = format!("{min_runs} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())

@@ -17,6 +17,7 @@ use std::sync::Arc;
 pub use crate::surrogate::SurrogateChoice;
 pub use build_error::BuildError;
 pub use builder::StudyBuilder;
+pub(crate) use options::MAX_GROWN_ROWS;
 pub use options::{AnalysisOptions, Target};
 use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
 use serde_json::Value;
@@ -29,12 +30,6 @@ use crate::model::Model;
 use crate::run::{BLOCK, ModelFiles};
 use crate::space::Space;
 use crate::surrogate::MIN_POINTS;
-use crate::uncertainty::RULE_OF_THREE;
-
-/// The smallest region of a factor's range that a run with an accuracy must not miss, for models that take their time
-/// and for others.
-const SLOW_REGION: f64 = 0.05;
-const QUICK_REGION: f64 = 0.001;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it. Its methods describe its fields.
 #[derive(Debug, Clone)]
@@ -252,9 +247,7 @@ impl Study {
     /// Returns the number of distinct values of every factor that a run with an accuracy needs, so that a region of the
     /// smallest size contains one with 95 % probability.
     pub(crate) fn needed_values(&self) -> u64 {
-        let is_slow = self.model().is_slow();
-        let region = self.target.smallest_region.unwrap_or(if is_slow { SLOW_REGION } else { QUICK_REGION });
-        (RULE_OF_THREE / region).ceil() as u64
+        self.target.needed_values(self.model().is_slow())
     }
 
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.

@@ -9,7 +9,7 @@ use crate::result::Warning;
 use crate::run::FailurePolicy;
 use crate::space::{Group, IndicesOf, Space};
 use crate::surrogate::{MIN_NETS, SurrogateChoice};
-use crate::uncertainty::IntervalMethod;
+use crate::uncertainty::{IntervalMethod, RULE_OF_THREE};
 
 /// What to estimate from the runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,11 +136,17 @@ impl AnalysisOptions {
 const MAX_PLAIN_OUTPUTS: usize = 32;
 
 /// Maximum number of plain rows: of more, base points with swaps correct what surrogates leave.
-pub(crate) const MAX_PLAIN_ROWS: u64 = 1 << 12;
+pub(super) const MAX_PLAIN_ROWS: u64 = 1 << 12;
+
+/// Maximum number of plain rows to which a run grows.
+pub(crate) const MAX_GROWN_ROWS: u64 = 1 << 11;
+
+/// Minimum number of plain rows with which a run grows.
+pub(super) const FIRST_ROWS: u64 = 60;
 
 /// Minimum number of plain rows, and for each factor.
-pub(crate) const MIN_PLAIN_ROWS: u64 = 24;
-pub(crate) const PLAIN_ROWS_OF_FACTOR: u64 = 5;
+pub(super) const MIN_PLAIN_ROWS: u64 = 24;
+pub(super) const PLAIN_ROWS_OF_FACTOR: u64 = 5;
 
 /// Maximum number of rows times outputs up to which surrogates are fitted by default.
 pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 16;
@@ -204,6 +210,13 @@ impl Target {
         self.accuracy.is_some() || self.max_time.is_some() || self.max_runs.is_some()
     }
 
+    /// Returns the number of distinct values of every factor that an accuracy needs, so that a region of the smallest size
+    /// contains one with 95 % probability.
+    pub(crate) fn needed_values(&self, is_slow: bool) -> u64 {
+        let region = self.smallest_region.unwrap_or(if is_slow { SLOW_REGION } else { QUICK_REGION });
+        (RULE_OF_THREE / region).ceil() as u64
+    }
+
     /// Returns the default number of base samples with which a run with `replicates` starts.
     pub(super) fn base_samples(&self, replicates: u64) -> u64 {
         match self {
@@ -228,6 +241,10 @@ impl Target {
         Ok(design)
     }
 }
+
+/// Smallest region of a model that takes its time, and of one that does not.
+const SLOW_REGION: f64 = 0.05;
+const QUICK_REGION: f64 = 0.001;
 
 /// Base samples with which a growing run starts.
 const FIRST_STAGE: u64 = 1 << 10;

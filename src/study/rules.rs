@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::options::{
-    MAX_OUTPUTS_OF_MEASURES, MAX_PLAIN_ROWS, MIN_PLAIN_ROWS, PLAIN_ROWS_OF_FACTOR, RESAMPLES, base_samples_within, rows,
+    FIRST_ROWS, MAX_GROWN_ROWS, MAX_OUTPUTS_OF_MEASURES, MAX_PLAIN_ROWS, MIN_PLAIN_ROWS, PLAIN_ROWS_OF_FACTOR,
+    RESAMPLES, base_samples_within, rows,
 };
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
@@ -251,28 +252,35 @@ impl Length {
         Ok(())
     }
 
-    /// Returns the design: with a number of runs the plain rows or the best base samples within it.
+    /// Returns the design: with an accuracy or a number of runs the plain rows, if a surrogate of `plain` rows is where a run
+    /// begins and gives all indices; or the best base samples within it.
     pub(super) fn design(
         &self,
         options: &AnalysisOptions,
         space: &Space,
         outputs: usize,
         settings: DesignSettings,
-        takes_plain: bool,
+        plain: Option<u64>,
     ) -> Result<Design, BuildError> {
         let (factors, replicates) = (space.factors().len(), settings.replicates);
         let with = |base_samples| {
             let settings = DesignSettings { base_samples, ..settings.clone() };
             Design::new(settings, factors, rows(options, space))
         };
-        let Some(runs) = self.runs else {
-            return Ok(with(self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)))?);
-        };
         // Errors in the rows are those of this one too.
         let smallest = with(replicates.saturating_mul(2))?;
-        let is_plain = takes_plain && options.takes_plain_rows(&settings, space, outputs) && runs <= MAX_PLAIN_ROWS;
-        if is_plain {
-            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64).next_multiple_of(2 * replicates);
+        let each = replicates.saturating_mul(2);
+        let plain = plain.filter(|_| options.takes_plain_rows(&settings, space, outputs));
+        let Some(runs) = self.runs else {
+            let first = plain.map(|rows| rows.max(FIRST_ROWS).next_multiple_of(each));
+            let most = self.target.max_runs.unwrap_or(u64::MAX).min(MAX_GROWN_ROWS);
+            return Ok(match first.filter(|rows| self.target.accuracy.is_some() && *rows <= most) {
+                Some(rows) => smallest.plain(rows)?,
+                None => with(self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)))?,
+            });
+        };
+        if plain.is_some() && runs <= MAX_PLAIN_ROWS {
+            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64).next_multiple_of(each);
             if runs < fewest {
                 let expected =
                     format!("{fewest} or more: fewer tell only which factors have no effect (`apportion screen`)");

@@ -114,7 +114,7 @@ fn errors_of_the_builder_state_the_reason() {
         Err(BuildError::Wrong { key, .. }) => key,
         other => panic!("{other:?}"),
     };
-    assert_eq!(key(two().runs(31)), "runs");
+    assert_eq!(key(two().runs(23)), "runs");
     assert_eq!(key(two().runs(100).base_samples(16)), "base_samples");
     assert_eq!(key(two().runs(100).until(Target::accuracy(0.1))), "runs");
     assert_eq!(key(two().runs(100).until(Target::default().max_time(1.0))), "max_time");

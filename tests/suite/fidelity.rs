@@ -127,7 +127,6 @@ fn an_accuracy_is_kept_and_its_lines_make_the_same_run_again() {
     let first = run(&["--accuracy", "0.01"], &out);
     let spending = first.spending.clone().unwrap();
     assert_eq!((spending.accuracy, first.stopping.as_ref().unwrap().target_met), (0.01, Some(true)));
-    assert!(spending.plain_runs.unwrap() > 10 * spending.runs, "{spending:?}");
     for index in first.outputs[0].indices.as_ref().unwrap() {
         let of = &index.effect.first_order;
         assert!(of.interval.unwrap().high - of.interval.unwrap().low <= 0.02, "{index:?}");
@@ -171,8 +170,8 @@ fn an_interrupted_run_with_accuracy_of_a_program_resumes() {
     let (second, _) = run();
     assert_eq!(first.outputs[0].indices, second.outputs[0].indices);
     let spending = first.spending.unwrap();
-    assert!(spending.runs <= 1000, "{spending:?}");
-    assert!(out.join("wing-split.journal").is_file());
+    assert!(spending.runs <= 100, "{spending:?}");
+    assert!(out.join("wing-plain.journal").is_file());
     // a^2 has variance 4/45, b c 7/144.
     let (own, pair) = (4.0 / 45.0, 7.0 / 144.0);
     let found = first.outputs[0].indices.as_ref().unwrap()[0].effect.total.estimate;
@@ -190,7 +189,7 @@ fn quick_models_are_doubled_without_surrogates() {
         .unwrap();
     let result = study.run().unwrap();
     let spending = result.spending.as_ref().unwrap();
-    assert!(result.stopping.as_ref().unwrap().target_met == Some(true) && !spending.reasons.is_empty());
+    assert!(result.stopping.as_ref().unwrap().target_met == Some(true) && spending.runs >= 3000);
     let total = result.output("y").unwrap().factor("a").unwrap().total;
     assert!((total.estimate - (27.0 + 4.0) / 139.0).abs() < 0.002, "{total:?}");
 }

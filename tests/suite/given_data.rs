@@ -227,9 +227,9 @@ fn the_table_is_never_overwritten() {
 #[test]
 fn a_surrogate_adds_total_indices() {
     let content = table(&random(3, 300, 4));
-    let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
+    let run = Run::of(&content, &["--outputs", "y"]);
     let result = run.result();
-    let surrogate = result.surrogate.as_ref().unwrap();
+    let surrogate = &result.surrogate;
     assert_eq!((surrogate.rows, surrogate.distributions.as_deref()), (Some(300), Some("columns")));
     let of = result.outputs[0].surrogate.as_ref().unwrap();
     assert!(of.serves && of.unknown < 1e-12, "{}", of.unknown);
@@ -238,7 +238,7 @@ fn a_surrogate_adds_total_indices() {
         assert!(low <= exact / 14.0 && exact / 14.0 <= high && high - low < 0.15, "{index:?}");
     }
     // What is left is nothing, of which nothing is said.
-    messages!().add_printed("--surrogate", &stdout(&run.output));
+    messages!().add_printed("a surrogate", &stdout(&run.output));
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert!(
         csv.starts_with("output,input,first_order,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
@@ -256,12 +256,12 @@ fn distributions_come_from_the_study() {
     let path = folder.path().join("study.toml");
     std::fs::write(&path, study(1.0)).unwrap();
     let content = table(&random(3, 200, 4));
-    let with_study = ["--outputs", "y", "--surrogate", "--study", text(&path)];
+    let with_study = ["--outputs", "y", "--study", text(&path)];
     let result = Run::of(&content, &with_study).result();
     for (index, exact) in result.outputs[0].surrogate.as_ref().unwrap().indices.iter().zip([9.0, 4.0, 1.0]) {
         assert!((index.first_order.estimate - exact / 14.0).abs() < 1e-9, "{index:?}");
     }
-    assert_eq!(result.surrogate.unwrap().distributions.as_deref(), Some("given"));
+    assert_eq!(result.surrogate.distributions.as_deref(), Some("given"));
     std::fs::write(&path, study(2.0)).unwrap();
     let result = Run::of(&content, &with_study).result();
     let mut messages = messages!();
@@ -276,7 +276,7 @@ fn a_useless_surrogate_gives_a_warning() {
     let columns = random(4, 200, 4);
     let mut content = "x1,x2,y\n".to_owned();
     (0..200).for_each(|k| content.push_str(&format!("{},{},{}\n", columns[0][k], columns[1][k], columns[3][k])));
-    let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
+    let run = Run::of(&content, &["--outputs", "y"]);
     let result = run.result();
     assert!(!result.outputs[0].surrogate.as_ref().unwrap().serves);
     let mut messages = messages!();

@@ -18,7 +18,7 @@ fn a_run_that_chose_its_design_is_made_more_accurate() {
     let (study, out) = (folder.with("s.toml", SUM), folder.path("out"));
     let [study, out] = [text(&study), text(&out)];
     let said = succeed(&["run", study, "--accuracy", "0.05", "--out", out, "--charts", "none"]);
-    assert!(said.contains("\n    [design]\n    runs = "), "{said}");
+    assert!(said.contains("\n    [design]\n    base_samples = "), "{said}");
     let before = files(Path::new(out));
     succeed(&["run", study, "--accuracy", "0.025", "--out", out, "--charts", "none"]);
     assert_eq!(files(Path::new(out)), before);

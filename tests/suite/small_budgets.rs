@@ -23,7 +23,7 @@ fn random_points_of_a_study_give_its_indices() {
     }
     let out = folder.path("out");
     let study = text(&study);
-    succeed(&["given-data", text(&table), "--outputs", "y", "--study", study, "--surrogate", "--out", text(&out)]);
+    succeed(&["given-data", text(&table), "--outputs", "y", "--study", study, "--out", text(&out)]);
     let result: GivenFile = serde_json::from_slice(&std::fs::read(out.join("table.json")).unwrap()).unwrap();
     let found = result.outputs[0].surrogate.as_ref().unwrap();
     let all = 1.0 / 3.0 + 4.0 / 3.0 + 1.0 / 9.0;

@@ -39,7 +39,7 @@ pub(super) fn widest_interval(view: &OutputView<'_>) -> Option<f64> {
 
 /// Returns the same for an output, not less than any half width in its table: that of the longer side, rounded.
 pub(super) fn widest_of(output: &OutputResult) -> Option<f64> {
-    let widest = output.convergence.last()?.largest_half_width?;
+    let widest = output.largest_half_width()?;
     let indices = effects(output).flat_map(|(_, effect)| [effect.first_order, effect.total]);
     Some(indices.filter_map(|index| PrintedEstimate::new(index).half_width()).fold(widest, f64::max))
 }

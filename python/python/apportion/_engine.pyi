@@ -86,7 +86,6 @@ def given_data(
     inputs: tuple[list[str], NDArray[np.float64]],
     outputs: tuple[list[str], NDArray[np.float64]],
     *,
-    surrogate: bool,
     measures: bool,
     distributions: Study | None,
     seed: int,

@@ -20,7 +20,6 @@ def given_data(
     inputs: Any,
     outputs: Any,
     *,
-    surrogate: bool = False,
     measures: bool = False,
     factors: Mapping[str, Any] | None = None,
     seed: int = 0,
@@ -29,7 +28,7 @@ def given_data(
     """Indices from rows that are independent draws, from any source: no design, and no further runs.
 
     `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s or named `Series`, or arrays of
-    (rows, columns). With `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
+    (rows, columns). `factors` tells the distributions to the surrogate, which also gives total indices. `measures`
     adds Borgonovo's delta, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
     A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
     """
@@ -38,7 +37,7 @@ def given_data(
     digest = hashlib.sha256(x[1].tobytes() + y[1].tobytes()).hexdigest()
     study = None if factors is None else Study(None, factors)._study
     document = _engine.given_data(
-        x, y, surrogate=surrogate, measures=measures, distributions=study, seed=seed, name=name, sha256=digest
+        x, y, measures=measures, distributions=study, seed=seed, name=name, sha256=digest
     )
     return Document(document)
 

@@ -93,8 +93,8 @@ pub struct SurrogateOutput {
 }
 
 impl SurrogateOutput {
-    /// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
-    pub const MIN_EXPLAINED: f64 = 0.9;
+    /// Share of the variance of other rows that a useful surrogate explains: its residual widens all intervals.
+    pub const MIN_EXPLAINED: f64 = 0.5;
 }
 
 /// The indices of one input by surrogates, nominally between 0 and 1 and not clamped.
@@ -114,8 +114,8 @@ pub struct SurrogateIndices {
 /// or is `None`: then the distributions are those of the columns, and the intervals include their error. They are
 /// needed for high accuracy: from n random rows of unknown distributions no index has an error below about 1/sqrt(n).
 ///
-/// Estimates are those of the surrogates (Sudret 2008). With r the share of the variance that they leave of n held-out
-/// rows, half the width of the 95 % intervals is r + 4 sqrt(r/n), which holds for independent rows and for Sobol' points.
+/// Estimates are those of the surrogates (Sudret 2008), with 95 % intervals from what fits leave of the rows that they have
+/// not seen, which hold for independent rows and for Sobol' points.
 ///
 /// # Errors
 /// [`SurrogateRefusal`]: inputs that depend on each other, a number of distributions other than that of inputs, a

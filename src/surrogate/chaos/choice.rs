@@ -203,6 +203,13 @@ impl Chaos {
         &self.listed.prior.y[..self.listed.prior.rows]
     }
 
+    /// Returns the mean of what the terms leave of the rows that are fitted.
+    pub fn constant(&self) -> f64 {
+        let g = self.listed.combined(&self.coefficients);
+        let left = self.fitted_outputs().iter().zip(g).map(|(y, g)| y - g);
+        apportion_base::sum::mean(&left.collect::<Vec<f64>>())
+    }
+
     /// Returns the variance that the prior takes for noise.
     pub fn noise(&self) -> f64 {
         self.scale * self.scale * self.listed.prior.noise_variance()

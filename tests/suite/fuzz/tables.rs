@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use apportion::given::analyse;
+use apportion::given::{analyse, surrogate_indices};
 use apportion::model::RunContext;
 use apportion::study::Study;
 use apportion_files::exchange::{
@@ -79,6 +79,7 @@ fn analysed(table: &Table) {
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         seed: 0,
     };
-    let result = build_given(&indices, None, inputs, outputs, &facts);
+    let surrogates = surrogate_indices(inputs, outputs, &indices, None);
+    let result = build_given(&indices, &surrogates, inputs, outputs, &facts);
     super::result::written(&given_document(&result, "table"));
 }

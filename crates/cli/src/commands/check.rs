@@ -179,15 +179,14 @@ fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     let settings = design.settings();
     let size = if study.target().grows() { "begins with " } else { "" };
     let base_samples = grouped(settings.base_samples);
+    let replicates = counted(settings.replicates, "replicate");
+    let points = match design.is_plain() {
+        true => format!("{} rows, each at a point of its own, in {replicates}", grouped(design.rows())),
+        false => format!("{base_samples} base samples in {replicates} of {}", design.points_per_replicate()),
+    };
     let mut lines = vec![
         String::new(),
-        format!(
-            "design: {} points, {size}{base_samples} base samples in {} of {}, seed {}",
-            settings.sampler.name(),
-            counted(settings.replicates, "replicate"),
-            design.points_per_replicate(),
-            settings.seed
-        ),
+        format!("design: {} points, {size}{points}, seed {}", settings.sampler.name(), settings.seed),
     ];
     for dependence in study.space().dependences() {
         let measure = dependence.measure_in_force().name();
@@ -195,13 +194,18 @@ fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     }
     lines.push(format!("asked: {}", estimated(study).join(", ")));
     let has_ba = design.has_ba();
-    lines.push(format!(
-        "estimators: first order {}, total {}",
-        FirstOrder::default_for(has_ba).name(),
-        Total::default_for(has_ba).name()
-    ));
-    let analysis = study.analysis();
-    lines.push(format!("intervals: {}", analysis.intervals.words(settings.replicates, analysis.resamples)));
+    let (analysis, of) =
+        (study.analysis(), [FirstOrder::default_for(has_ba).name(), Total::default_for(has_ba).name()]);
+    lines.push(match design.is_plain() {
+        true => {
+            "estimators: a surrogate; if it explains too little, swaps of the same points measure the rest".to_owned()
+        }
+        false => format!("estimators: first order {}, total {}", of[0], of[1]),
+    });
+    lines.push(match design.is_plain() {
+        true => "intervals: from rows that were left out of fits".to_owned(),
+        false => format!("intervals: {}", analysis.intervals.words(settings.replicates, analysis.resamples)),
+    });
     lines.push(match analysis.failures {
         FailurePolicy::Fail => "failed runs: the first one stops the run".to_owned(),
         FailurePolicy::DropBlock => {
@@ -209,13 +213,11 @@ fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
             format!("failed runs: left out, up to {share} % of all runs; beyond that no indices are estimated")
         }
     });
-    lines.push(format!("rows of a base sample: {}", rows(study).join(" + ")));
-    lines.push(format!(
-        "cost: {size}{base_samples} base samples x {} = {} model runs, {}",
-        design.rows_per_point(),
-        grouped(design.rows()),
-        time(pilot)
-    ));
+    let runs = grouped(design.rows());
+    let each = format!("{base_samples} base samples x {} = ", design.rows_per_point());
+    let each = if design.is_plain() { String::new() } else { each };
+    lines.extend((!design.is_plain()).then(|| format!("rows of a base sample: {}", rows(study).join(" + "))));
+    lines.push(format!("cost: {size}{each}{runs} model runs, {}", time(pilot)));
     lines.extend(stopping(study));
     lines.extend(memory(study));
     if pilot.is_none_or(|pilot| pilot.seconds > SLOW_RUN * design.rows() as f64) {

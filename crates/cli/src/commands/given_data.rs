@@ -29,12 +29,8 @@ pub struct Arguments {
     /// Columns that are inputs, separated by commas [default: all columns of numbers that are not outputs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     inputs: Vec<String>,
-    /// Also estimate total indices, and first-order indices that are far more accurate for smooth models: with a surrogate, fitted to
-    /// the rows and corrected by the rows that it was not fitted to
-    #[arg(long)]
-    surrogate: bool,
-    /// Study that has the inputs as factors, with the same names and units: it gives the labels of categories, and a surrogate that
-    /// uses its distributions is more accurate
+    /// Study that has the inputs as factors, with the same names and units: it gives the labels of categories, and the surrogate is
+    /// more accurate with its distributions
     #[arg(long, value_name = "STUDY")]
     study: Option<PathBuf>,
     /// Also estimate other measures: Borgonovo's delta, PAWN, R2-HSIC, and S_1 from the spectrum
@@ -74,19 +70,15 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let artefacts = arguments.output.artefacts(&name, files);
     let replicates = average_replicates(&mut inputs, &mut outputs).in_file(path)?;
     let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
-    let surrogates = if arguments.surrogate {
-        let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
-        Some(surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref()))
-    } else {
-        None
-    };
+    let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
+    let surrogates = surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let facts = GivenFacts {
         file: path.display().to_string(),
         sha256,
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         seed: arguments.seed,
     };
-    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts)
+    let mut result = build_given(&indices, &surrogates, &inputs, &outputs, &facts)
         .after(replicates.as_ref(), counter.as_deref())
         .without(&skipped);
     if arguments.measures {

@@ -131,7 +131,8 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
     let indices = output.indices.iter().flatten().enumerate();
     let rows = indices.map(|(number, index)| (index, output.first_order(number), served.map(|of| &of.indices[number])));
     let sum = served.map_or(output.sum_first_order, |of| Some(of.sum_first_order));
-    let rows = Table::from_rows(caption, rows)
+    let serves = result.outputs.iter().any(|output| output.served().is_some());
+    Table::from_rows(caption, rows)
         .file("output", |_| &output.name)
         .text("input", |(index, ..)| &index.input)
         .named("input")
@@ -141,12 +142,8 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         .sum(sum.map_or_else(String::new, three))
         .file_estimate("rank", |(index, ..)| index.rank)
         .file_estimate("binned", |(index, ..)| Some(index.binned.estimate))
-        .file("bins", |(index, ..)| index.binned.bins as u64);
-    if result.surrogate.is_none() {
-        return rows.into();
-    }
-    let serves = result.outputs.iter().any(|output| output.served().is_some());
-    rows.file_estimate("surrogate", |(.., of)| of.map(|index| index.first_order))
+        .file("bins", |(index, ..)| index.binned.bins as u64)
+        .file_estimate("surrogate", |(.., of)| of.map(|index| index.first_order))
         .number("S_T", |(.., of)| or_empty(of.map(|index| index.total)))
         .estimate("surrogate_total", |(.., of)| of.map(|index| index.total))
         .shown(serves)

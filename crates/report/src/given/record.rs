@@ -26,8 +26,8 @@ pub struct GivenFile {
     pub inputs: Vec<GivenInputRecord>,
     /// Dependence between the inputs; `null` with fewer than two that vary.
     pub dependence: Option<Dependence>,
-    /// How surrogates were fitted; `null` if they were not requested.
-    pub surrogate: Option<GivenSurrogateRecord>,
+    /// How surrogates were fitted.
+    pub surrogate: GivenSurrogateRecord,
     /// The outputs.
     pub outputs: Vec<GivenOutputRecord>,
     /// Warnings on this table, in sentences.
@@ -113,7 +113,7 @@ pub struct GivenOutputRecord {
     pub indices: Option<Vec<InputIndices>>,
     /// Sum over the inputs of the estimates by ranks or bins, those with the wider intervals.
     pub sum_first_order: Option<f64>,
-    /// Indices by surrogates; `null` if they were not requested, or there are none.
+    /// Indices by surrogates; `null` if there are none.
     pub surrogate: Option<SurrogateOutput>,
     /// Other measures, one entry per input; `null` if they were not requested, or there are none.
     pub measures: Option<Vec<InputMeasures>>,
@@ -178,15 +178,15 @@ pub struct GivenFacts {
     pub seed: u64,
 }
 
-/// Builds the result file for `indices` of the columns they were estimated from, and the `surrogates` if requested.
+/// Builds the result file for `indices` of the columns they were estimated from, and the `surrogates`.
 pub fn build_given(
     indices: &GivenIndices,
-    surrogates: Option<&SurrogateResult>,
+    surrogates: &SurrogateResult,
     inputs: &[Column],
     outputs: &[Column],
     facts: &GivenFacts,
 ) -> GivenFile {
-    let (columns, fitted) = (outputs, surrogates.and_then(|result| result.as_ref().ok()));
+    let (columns, fitted) = (outputs, surrogates.as_ref().ok());
     let mut records = Vec::new();
     for (number, (indices, column)) in indices.outputs.iter().zip(outputs).enumerate() {
         let surrogate = fitted.and_then(|all| all.outputs[number].as_ref().ok());
@@ -216,7 +216,7 @@ pub fn build_given(
         },
         inputs: inputs.iter().map(input_record).collect(),
         dependence: indices.dependence.clone(),
-        surrogate: surrogates.map(surrogate_record),
+        surrogate: surrogate_record(surrogates),
         outputs,
         warnings: inputs.iter().filter_map(unlikely).chain(sentences::codes(columns)).chain(warnings).collect(),
         notes: sentences::notes(serves),

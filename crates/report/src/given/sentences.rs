@@ -8,7 +8,7 @@ use apportion_base::text::listed;
 use super::{GivenOutputRecord, SurrogateResult};
 use crate::format::fixed;
 
-pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
+pub(super) fn estimators(indices: &GivenIndices, surrogates: &SurrogateResult) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
     let bins = indices.bins();
     let binned = match indices.points {
@@ -18,7 +18,7 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
         _ => format!("binned: variance of lines in {bins} bins of equal probability"),
     };
     let ranked = indices.points == PointSet::Independent;
-    let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
+    let surrogate = surrogates.as_ref().ok().map(|all| {
         let polynomials = if all.given_distributions { "the given distributions" } else { "the columns\' distributions" };
         format!(
             "surrogate: polynomial chaos expansion (Sudret 2008), orthonormal in {polynomials}, with a prior learnt from the \
@@ -37,8 +37,7 @@ pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<Str
     }
     if by_surrogate {
         parts.push(
-            "by the surrogate: 95 %, from the share r of the variance that it leaves of n rows to which it is not fitted, r + 4 \
-             sqrt(r/n) on either side",
+            "by the surrogate: 95 %, from what it leaves of rows that were left out of fits, and how much the fits differ",
         );
     }
     (!parts.is_empty()).then(|| parts.join("; "))
@@ -67,23 +66,17 @@ pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
 /// Returns the warnings on the table.
 pub(super) fn warnings(
     indices: &GivenIndices,
-    surrogates: Option<&SurrogateResult>,
+    surrogates: &SurrogateResult,
     dropped: Option<(u64, u64)>,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     match surrogates {
-        Some(Err(refusal)) => warnings.push(format!("no indices by a surrogate: {refusal}")),
-        Some(Ok(all)) if all.rows < indices.rows => warnings.push(format!(
+        Err(refusal) => warnings.push(format!("no indices by a surrogate: {refusal}")),
+        Ok(all) if all.rows < indices.rows => warnings.push(format!(
             "the table is large: the surrogate is fitted to {} of its {} rows, drawn at random",
             all.rows, indices.rows
         )),
-        _ => {}
-    }
-    if surrogates.is_some_and(Result::is_ok) && indices.points != PointSet::Independent {
-        warnings.push(
-            "the intervals by the surrogate are for random rows, and too wide for these rows, which are more even"
-                .to_owned(),
-        );
+        Ok(_) => {}
     }
     if let Some((rows, line)) = dropped {
         let were = if rows == 1 { "row was" } else { "rows were" };

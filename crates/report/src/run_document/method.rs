@@ -4,7 +4,7 @@ use apportion::result::{AccuracyRecord, StudyResult};
 use apportion_base::text::capitalised;
 
 use crate::document::{Mark, Part, Table};
-use crate::format::{grouped, printed, round_significant, significant};
+use crate::format::{grouped, printed, significant};
 
 /// Describes the cost of the run.
 pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
@@ -70,17 +70,8 @@ pub(super) fn cost(result: &StudyResult) -> Vec<Part> {
 fn chosen(result: &StudyResult, spending: &AccuracyRecord) -> Vec<String> {
     let mut texts: Vec<String> =
         spending.reasons.iter().map(|reason| format!("{}.", capitalised(&reason.to_string()))).collect();
-    let spent = grouped(spending.runs);
-    let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
-    texts.push(match saved {
-        Some(plain) => format!(
-            "An accuracy of {} took {spent} runs of the model, trials included; without surrogates and cheaper models it would \
-             take {} or more.",
-            significant(spending.accuracy),
-            grouped(round_significant(plain as f64, 2) as u64)
-        ),
-        None => format!("An accuracy of {} took {spent} runs of the model, trials included.", significant(spending.accuracy)),
-    });
+    let (accuracy, runs) = (significant(spending.accuracy), grouped(spending.runs));
+    texts.push(format!("An accuracy of {accuracy} took {runs} runs of the model, trials included."));
     texts.push(format!(
         "Not excluded: that the output behaves differently within less than {} % of the range of a factor, between all of its values \
          (95 %; `smallest_region`).",
