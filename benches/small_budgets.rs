@@ -174,8 +174,8 @@ fn table(name: &str, seed: u64, rows: u64) -> (Vec<Column>, Vec<Column>, Vec<Dis
 
 /// The methods, in the order of the table.
 const METHODS: [&str; 6] = [
-    "`given-data`, random rows",
-    "`given-data`, random rows",
+    "`given-data` by ranks, random rows",
+    "`given-data` with `--study`, random rows",
     "`screen`",
     "pick-freeze, `surrogate = \"off\"`",
     "pick-freeze with surrogates (the default)",
