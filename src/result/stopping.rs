@@ -46,11 +46,11 @@ pub enum StopReason {
     /// The outputs of twice the runs would not fit into memory.
     #[error("the outputs of twice the runs would not fit into memory, and these intervals need all of them")]
     Memory,
-    /// Twice the runs would be too many.
-    #[error("twice the runs would be {runs}, more than the maximum of {most}")]
+    /// The next stage would have too many runs.
+    #[error("the next stage would have {runs} runs in all, more than the maximum of {most}")]
     MaxRuns { runs: u64, most: u64 },
-    /// Twice the runs would take too long.
-    #[error("twice the runs would take about {seconds:.1} s, more than the budget of {budget} s")]
+    /// The next stage would take too long.
+    #[error("the next stage would take about {seconds:.1} s in all, more than the budget of {budget} s")]
     Budget { seconds: f64, budget: f64 },
 }
 

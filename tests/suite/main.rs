@@ -42,6 +42,7 @@ mod noise;
 mod outputs;
 mod overrides;
 mod page;
+mod plain_rows;
 mod points;
 mod rare_levels;
 mod remote_workers;
