@@ -22,7 +22,7 @@ const OWN: f64 = 0.75;
 const REMAINDER: f64 = 0.25;
 
 /// Rows at which the hyperparameters make the parts that are left out look half as different as they are.
-const FEW: f64 = 24.0;
+const HALF_AS_DIFFERENT: f64 = 24.0;
 
 /// Kurtosis of an output from which few rows may carry it, and the distance to where they do.
 const KURTOSIS: f64 = 4.0;
@@ -100,7 +100,7 @@ impl<'a> HeldOut<'a> {
         let variance = spreads.iter().map(|of| of.variance).sum::<f64>() / count;
         let concentration = spreads.iter().map(|of| of.concentration).sum::<f64>() / count;
         let widening = SPREAD * (1.0 + CONCENTRATED * concentration * self.concentration);
-        let few = 1.0 + FEW / self.sum.len() as f64;
+        let few = 1.0 + HALF_AS_DIFFERENT / self.sum.len() as f64;
         let spread = |of: &Spread| widening * (OWN * of.variance + (1.0 - OWN) * variance).sqrt();
         spreads.iter().map(|of| few * (spread(of) + self.remainder) + self.unseen).collect()
     }

@@ -13,7 +13,7 @@ use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, OutputM
 use rayon::prelude::*;
 
 /// Degrees of freedom of errors that are not those of a few nets.
-const MANY: f64 = 1e6;
+const FREEDOM: f64 = 1e6;
 
 /// A surrogate fitted to rows.
 #[derive(Debug)]
@@ -254,7 +254,7 @@ fn touches(set: &[usize], effect: &[usize]) -> bool {
 
 fn about(estimate: f64, half: f64, parts: Vec<f64>) -> Judgement {
     let interval = Some(Interval::about(estimate, half));
-    let error = StandardError { error: half / NORMAL_QUANTILE, freedom: MANY };
+    let error = StandardError { error: half / NORMAL_QUANTILE, freedom: FREEDOM };
     Judgement::new(Estimate { estimate, interval }, error, vec![parts])
 }
 

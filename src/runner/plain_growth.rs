@@ -11,15 +11,15 @@ use crate::run::RunError;
 use crate::study::{MAX_GROWN_ROWS, Target};
 
 /// Rows of a stage as multiples of those of the one before it: fewest and most.
-const LEAST_GROWTH: f64 = 1.125;
-const MOST_GROWTH: f64 = 1.5;
+const MIN_GROWTH: f64 = 1.125;
+const MAX_GROWTH: f64 = 1.5;
 
 /// Powers of the number of rows with which half widths fall: fewest, of a first stage, and most.
 const POWERS: [f64; 3] = [0.5, 1.0, 4.0];
 
 /// Parts of the runs of a study at which its plain rows are looked at, and fewest rows for that.
 const LOOKS: [u64; 2] = [4, 2];
-const FEWEST_LOOKED_AT: u64 = 128;
+const MIN_ROWS_OF_LOOK: u64 = 128;
 
 /// Stages after which it is known how half widths fall.
 const ENOUGH_STAGES: usize = 5;
@@ -49,7 +49,7 @@ impl Growth<'_> {
         let mut stages: Vec<Stage> = Vec::new();
         let has_accuracy = self.study.target.accuracy.is_some();
         let mut sizes: Vec<u64> = LOOKS.iter().map(|part| most / part / each * each).collect();
-        sizes.retain(|rows| !has_accuracy && *rows >= FEWEST_LOOKED_AT);
+        sizes.retain(|rows| !has_accuracy && *rows >= MIN_ROWS_OF_LOOK);
         sizes.push(most);
         let mut next = sizes[0];
         loop {
@@ -103,14 +103,14 @@ impl Growth<'_> {
             return Next::Stop(Some(StopReason::TargetMet { widest, target }));
         }
         let needed = match widest <= target {
-            true => (2.0 * enough_base_samples(&rare)).max(MOST_GROWTH * last.rows),
+            true => (2.0 * enough_base_samples(&rare)).max(MAX_GROWTH * last.rows),
             false => last.rows * libm::pow(widest / target, 1.0 / power(stages)),
         };
         let is_known = stages.len() >= ENOUGH_STAGES;
         if is_known && needed > MAX_GROWN_ROWS as f64 || rows >= MAX_GROWN_ROWS {
             return Next::Swaps;
         }
-        let next = needed.clamp(LEAST_GROWTH * last.rows, MOST_GROWTH * last.rows).min(MAX_GROWN_ROWS as f64) as u64;
+        let next = needed.clamp(MIN_GROWTH * last.rows, MAX_GROWTH * last.rows).min(MAX_GROWN_ROWS as f64) as u64;
         let seconds = self.run.elapsed().as_secs_f64() * next as f64 / last.rows;
         match (max_runs, max_time) {
             (Some(most), _) if next > most => Next::Stop(Some(StopReason::MaxRuns { runs: next, most })),
