@@ -280,7 +280,7 @@ impl Length {
             });
         };
         if plain.is_some() && runs <= MAX_PLAIN_ROWS {
-            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64).next_multiple_of(each);
+            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64);
             if runs < fewest {
                 let expected =
                     format!("{fewest} or more: fewer tell only which factors have no effect (`apportion screen`)");
