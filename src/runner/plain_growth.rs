@@ -34,7 +34,7 @@ const SWAPPED: f64 = 3.5;
 /// What a stage shows of its accuracy.
 struct Stage {
     rows: f64,
-    /// Largest half width of all outputs; `None` if some are missing.
+    /// Largest half width of the outputs that vary; `None` if some are missing, or none varies.
     widest: Option<f64>,
     /// Largest share of the variance that a surrogate leaves.
     rest: f64,
@@ -70,7 +70,8 @@ impl Growth<'_> {
 
     fn plain_stage(&self, fits: &Arc<PlainOutputs>, design: &Design) -> Stage {
         let (study, model) = (self.study, self.study.model());
-        let mut stage = Stage { rows: design.rows() as f64, widest: Some(0.0), rest: 0.0, is_doubted: false };
+        let mut stage = Stage { rows: design.rows() as f64, widest: None, rest: 0.0, is_doubted: false };
+        let mut has_all = true;
         for number in 0..model.outputs().len() {
             match fits.indices(study, model.as_ref(), number, false) {
                 Ok(indices) => {
@@ -78,12 +79,15 @@ impl Growth<'_> {
                     self.run.totals().iter().for_each(|totals| values.merge(&totals.outputs[number].values));
                     stage.is_doubted |= is_doubted(study, &indices, &values);
                     stage.rest = fits.rest(number).unwrap_or(0.0).max(stage.rest);
-                    stage.widest = stage.widest.zip(indices.largest_half_width()).map(|(a, b)| a.max(b));
+                    let widest = indices.largest_half_width();
+                    has_all &= widest.is_some();
+                    stage.widest = stage.widest.into_iter().chain(widest).reduce(f64::max);
                 }
                 Err(Undefined::ZeroVariance) => (),
-                Err(_) => stage.widest = None,
+                Err(_) => has_all = false,
             }
         }
+        stage.widest = stage.widest.filter(|_| has_all);
         stage
     }
 

@@ -210,14 +210,17 @@ impl Search<'_> {
 
     fn run(&self, step: Step) -> Result<RunOutcome, RunError> {
         let study = self.study(step)?;
-        let (kind, store) = match step {
-            Step::Plain => (Some("plain"), Some(&self.plain)),
-            Step::Corrected => (None, Some(&self.swapped)),
-            Step::Uncorrected => (None, None),
+        let store = match step {
+            Step::Plain => Some(&self.plain),
+            Step::Corrected => Some(&self.swapped),
+            Step::Uncorrected => None,
         };
+        // The rows of the study itself are in its journal.
+        let is_of_study = self.runner.study.design.is_plain() == (step == Step::Plain);
         let path = self.runner.journal.as_ref();
-        let journal = path.map(|path| kind.map_or_else(|| path.clone(), |kind| sibling_path(path, kind)));
-        let resume = self.runner.resume.of_part();
+        let journal = path.map(|path| if is_of_study { path.clone() } else { sibling_path(path, "swaps") });
+        let is_fixed = is_of_study && study.target.accuracy.is_none();
+        let resume = if is_fixed { self.runner.resume } else { self.runner.resume.of_part() };
         let part = Runner { study: &study, journal, resume, store, ..self.runner.clone() };
         let (result, reason) = part.analyse(self.context, part.open(None, self.context.messages())?)?;
         drop(part);

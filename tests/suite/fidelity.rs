@@ -171,7 +171,7 @@ fn an_interrupted_run_with_accuracy_of_a_program_resumes() {
     assert_eq!(first.outputs[0].indices, second.outputs[0].indices);
     let spending = first.spending.unwrap();
     assert!(spending.runs <= 100, "{spending:?}");
-    assert!(out.join("wing-plain.journal").is_file());
+    assert!(out.join("wing.journal").is_file());
     // a^2 has variance 4/45, b c 7/144.
     let (own, pair) = (4.0 / 45.0, 7.0 / 144.0);
     let found = first.outputs[0].indices.as_ref().unwrap()[0].effect.total.estimate;

@@ -105,3 +105,12 @@ fn an_input_that_is_not_read_is_exactly_without_effect() {
         assert_eq!((index.estimate, index.interval.unwrap().width()), (0.0, 0.0));
     }
 }
+
+/// An output that is 0 in all rows may not be so elsewhere.
+#[test]
+fn an_output_that_does_not_vary_meets_no_accuracy() {
+    let text = format!("accuracy = 0.1\nsmallest_region = 0.05\n{}", expression("if(a*b>0.9999, 1, 0)", "ab"));
+    let result = study(&text, &[]).run().unwrap();
+    assert_eq!(result.stopping.as_ref().unwrap().target_met, Some(false));
+    assert!(result.spending.unwrap().runs > 1000);
+}
