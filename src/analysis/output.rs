@@ -82,7 +82,6 @@ pub(super) fn output_result(
         base_points_used: used.fewest(),
         failures: totals.failures.iter().map(|(failure, tally)| failure_count(run, &failure, tally)).collect(),
         measures: rows.measured.as_ref().and_then(|rows| rows.measures(&study.analysis.measures, number, &samples)),
-        surrogate_trial: corrected.trials.get(number).copied().flatten(),
         convergence,
         reason: indices.as_ref().err().copied(),
         warnings,

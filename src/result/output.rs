@@ -60,8 +60,6 @@ pub struct OutputResult {
     pub estimators: Vec<EstimatorRecord>,
     /// The use of surrogates; `null` without any.
     pub surrogate: Option<SurrogateRecord>,
-    /// The gain by surrogates in a trial, if one decided on them.
-    pub surrogate_trial: Option<SurrogateTrial>,
     /// The indices and their intervals at stages of the run, without surrogates.
     pub convergence: Vec<StageRecord>,
     /// The distribution of its values in the rows A and B; `null` if no run succeeded, or if a number exceeds double precision.
@@ -168,19 +166,6 @@ pub struct ConditionalMeansRecord {
     pub low: Vec<Option<f64>>,
     /// Mean plus 1.96 standard errors.
     pub high: Vec<Option<f64>>,
-}
-
-/// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct SurrogateTrial {
-    /// Number of its model runs.
-    pub runs: u64,
-    /// Ratio of the errors without and with surrogates, for the first-order or the total indices, the smaller one.
-    pub gain: f64,
-    /// Minimum required ratio.
-    pub needed: f64,
 }
 
 /// A reason for which runs failed.

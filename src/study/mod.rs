@@ -19,7 +19,7 @@ pub use build_error::BuildError;
 pub use builder::StudyBuilder;
 pub(crate) use options::MAX_GROWN_ROWS;
 pub use options::{AnalysisOptions, Target};
-use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
+use options::{MAX_AUTOMATIC_VALUES, rows};
 use serde_json::Value;
 use subject::CustomSubject;
 pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
@@ -257,10 +257,10 @@ impl Study {
         let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
         fits && match self.automatic_values(design) {
             None => true,
-            Some((values, true)) => values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS,
+            Some((values, true)) => values <= MAX_AUTOMATIC_VALUES,
             Some((values, false)) => {
                 let has_size = self.target.accuracy.is_some() || !self.target.grows();
-                values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL && has_size
+                values <= MAX_AUTOMATIC_VALUES && has_size
             }
         }
     }
@@ -279,12 +279,6 @@ impl Study {
         let model = self.model();
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
         (is_automatic && self.low_fidelities.is_empty()).then(|| (values, model.concurrency().is_some()))
-    }
-
-    /// Returns whether surrogates are tried on a part of a run of `design` before they are fitted to it: for fast
-    /// models, which could do more runs in that time.
-    pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
-        matches!(self.automatic_values(design), Some((values, false)) if values > MAX_AUTOMATIC_VALUES)
     }
 
     /// Returns whether the estimates need the outputs of every run, not only their sums.

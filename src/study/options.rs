@@ -148,14 +148,9 @@ pub(super) const FIRST_ROWS: u64 = 60;
 pub(super) const MIN_PLAIN_ROWS: u64 = 24;
 pub(super) const PLAIN_ROWS_OF_FACTOR: u64 = 5;
 
-/// Maximum number of rows times outputs up to which surrogates are fitted by default.
-pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 16;
-
-/// The same where a trial on fewer rows explains the output.
-pub(super) const MAX_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
-
-/// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
-pub(super) const MAX_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
+/// Maximum number of rows times outputs up to which surrogates are fitted by default: all must fit into memory, and a
+/// fast model could do more runs in the time of a fit.
+pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 22;
 
 /// The required accuracy of the indices, and the limits of a run that continues until it is reached. With limits alone
 /// the run is doubled as far as they allow; with neither it has the size of its design.

@@ -135,22 +135,6 @@ fn more_rows_know_rare_levels_at_least_as_well() {
     }
 }
 
-#[test]
-fn a_trial_explains_why_indices_are_plain() {
-    let steps = |x: &[f64]| f64::from(u8::from(x[0] + x[1] > 0.7)) + f64::from(u8::from(x[1] * x[2] > 0.2));
-    let smooth = |x: &[f64]| x[0] * x[1] + x[2];
-    for (function, is_corrected) in [(steps as fn(&[f64]) -> f64, false), (smooth, true)] {
-        let builder = Study::builder("trial", function_model("y", function));
-        let builder = (0..3).fold(builder, |builder, i| builder.factor(&format!("x{i}"), uniform()));
-        let analysis = builder.base_samples(1 << 15).build().unwrap().runner().run().unwrap();
-        let output = &analysis.outputs[0];
-        let trial = output.surrogate_trial.unwrap();
-        assert_eq!(trial.gain > trial.needed, is_corrected, "{trial:?}");
-        assert_eq!(output.surrogate.is_some(), is_corrected);
-        assert!(trial.runs >= 8192 && trial.runs < analysis.provenance.model_runs);
-    }
-}
-
 /// Rejected surrogates do not extend the intervals of the plain indices.
 #[test]
 fn surrogates_that_are_refused_are_warned_of_once() {

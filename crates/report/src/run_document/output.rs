@@ -1,7 +1,7 @@
 //! The topics of the document on one output.
 
 use apportion::IndexPair;
-use apportion::result::{Named, OutputResult, StudyResult, SurrogateTrial};
+use apportion::result::{Named, OutputResult, StudyResult};
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_base::text::listed;
 
@@ -212,7 +212,7 @@ impl Topics<'_> {
     /// Describes the accuracy of the surrogates, their benefit, and their terms.
     fn surrogate(&self) -> Vec<Part> {
         let Some(record) = &self.output.surrogate else {
-            return self.output.surrogate_trial.map(|trial| Part::Text(declined(trial))).into_iter().collect();
+            return Vec::new();
         };
         if record.plain.is_empty() {
             let text = format!(
@@ -246,17 +246,6 @@ impl Topics<'_> {
             false => vec![Part::Details { summary: "Indices by estimator".to_owned(), parts }],
         }
     }
-}
-
-/// Says why the indices are not corrected by surrogates.
-fn declined(trial: SurrogateTrial) -> String {
-    format!(
-        "The indices are plain ones: in a trial on {} runs, surrogates made errors {} times smaller, and all runs are \
-         corrected only from {} times smaller on (`surrogate = \"on\"` always corrects them).",
-        grouped(trial.runs),
-        significant((trial.gain * 10.0).floor() / 10.0),
-        trial.needed
-    )
 }
 
 /// Formats a share in percent, rounded down to two decimals.
