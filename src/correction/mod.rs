@@ -7,6 +7,7 @@ mod error;
 mod estimates;
 mod held_out;
 mod influenced;
+mod judged;
 mod kind;
 mod low_fidelity;
 mod many_outputs;
@@ -18,8 +19,8 @@ mod surrogate_use;
 
 pub use error::CorrectionError;
 pub use estimates::{ErrorShares, SurrogateEstimates};
-pub(crate) use held_out::HeldOut;
 pub use influenced::EstimateWithInfluences;
+pub(crate) use judged::Judged;
 pub(crate) use low_fidelity::{IndependentOutputs, LowFidelityOutputs, low_fidelity_estimates};
 pub(crate) use many_outputs::surrogates_together;
 pub(crate) use plain::{PlainFit, PlainRows};

@@ -1,6 +1,7 @@
 //! Indices of a surrogate that is fitted to plain rows, each at a point of its own.
 
-use super::held_out::{HeldOut, Spread};
+use super::held_out::HeldOut;
+use super::judged::{Index, Judged, about, exactly};
 use super::surrogate_use::SurrogateUse;
 use crate::design::Design;
 use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, OfPair, Quantities};
@@ -9,11 +10,8 @@ use crate::surrogate::chaos::{Chaos, Factor, degree_at};
 use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::outputs::{Scale, ScaledOutput};
 use crate::surrogate::{Effects, Expansion, Family, Term, choices, leading_terms};
-use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, OutputMoments, StandardError};
+use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, OutputMoments};
 use rayon::prelude::*;
-
-/// Degrees of freedom of errors that are not those of a few nets.
-const FREEDOM: f64 = 1e6;
 
 /// A surrogate fitted to rows.
 #[derive(Debug)]
@@ -44,11 +42,6 @@ impl PlainFit {
     /// Returns the share of the variance that is left plus the error that no rows show.
     pub fn unknown(&self) -> f64 {
         self.chaos.rest + self.extrapolation.variance
-    }
-
-    /// Returns the error of an `index` by the tails of the factors, where that of its variance is `beyond`.
-    pub fn beyond(&self, index: f64, beyond: f64) -> f64 {
-        (beyond + index * self.extrapolation.variance) / (self.chaos.variances.all + self.chaos.rest)
     }
 
     /// Returns the use of the surrogate.
@@ -131,51 +124,28 @@ impl PlainRows {
 
     /// Computes the quantities of `layout` by a fit. Those of the effects at `unread` positions are exactly 0.
     pub fn quantities(&self, fit: &PlainFit, layout: &Layout, unread: &[bool]) -> Quantities<Judgement> {
-        let all = Judged::new(fit);
-        let Effects { swaps, pairs } = &self.effects;
-        let PlainFit { chaos, extrapolation, .. } = fit;
-        let (rest, variance) = (chaos.rest, chaos.variances.all);
-        let first: Vec<Vec<f64>> = swaps.iter().map(|swap| all.weights(|set| is_within(set, swap))).collect();
-        let total: Vec<Vec<f64>> = swaps.iter().map(|swap| all.weights(|set| touches(set, swap))).collect();
-        let (of_first, of_total) = (variance + rest, variance + rest * rest);
-        let first_order = all.judged(&first, &extrapolation.first_order, of_first);
-        let of_totals = all.judged(&total, &extrapolation.total, of_total);
-        let differences: Vec<Vec<f64>> =
-            first.iter().zip(&total).map(|(a, b)| a.iter().zip(b).map(|(a, b)| b - a).collect()).collect();
-        let interactions = all.judged(&differences, &extrapolation.total, of_total);
-        let players: Vec<&Vec<usize>> =
-            layout.effects.iter().zip(swaps).filter(|(effect, _)| effect.is_input()).map(|(_, swap)| swap).collect();
-        let shapley = layout.shapley.then(|| {
-            let weights = players.iter().map(|player| {
-                let shared = |set: &[usize]| players.iter().filter(|other| touches(set, other)).count().max(1) as f64;
-                chaos.sets().iter().map(|set| f64::from(u8::from(touches(set, player))) / shared(set)).collect()
-            });
-            all.judged(&weights.collect::<Vec<_>>(), &extrapolation.total, variance)
-        });
-        let of_pairs: Vec<Vec<f64>> = pairs
-            .iter()
-            .map(|&(j, k)| {
-                let both = |factor: &usize| swaps[j].contains(factor) || swaps[k].contains(factor);
-                all.weights(|set| touches(set, &swaps[j]) && touches(set, &swaps[k]) && set.iter().all(both))
-            })
-            .collect();
-        let of_pairs = all.judged(&of_pairs, &extrapolation.pairs, of_first);
-        let sum_of = |kind: &[Vec<f64>], beyond: &[f64], whole: f64, is_of: fn(Effect) -> bool| {
-            let mut sum = (vec![0.0; chaos.sets().len()], 0.0);
-            for (at, weights) in kind.iter().enumerate().filter(|(at, _)| is_of(layout.effects[*at])) {
-                sum.0.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight);
-                sum.1 += beyond[at];
-            }
-            all.judged(&[sum.0], &[sum.1], whole).remove(0)
+        let all = Judged::new(fit, &self.effects);
+        let (first_order, total) = (all.first_order(), all.total());
+        let interactions: Vec<Index> =
+            total.iter().zip(&first_order).map(|(total, first)| total.clone().plus(-1.0, first)).collect();
+        let positions = |is_of: fn(Effect) -> bool| -> Vec<usize> {
+            (0..layout.effects.len()).filter(|at| is_of(layout.effects[*at])).collect()
         };
-        let sums = |is_of| IndexPair {
-            first_order: sum_of(&first, &extrapolation.first_order, of_first, is_of),
-            total: sum_of(&total, &extrapolation.total, of_total, is_of),
+        let sum = |kind: &[Index], is_of| {
+            let members = positions(is_of).into_iter().map(|at| kind[at].clone());
+            members.reduce(|sum, of| sum.plus(1.0, &of)).map_or_else(|| exactly(0.0), |sum| all.judge(&[sum]).remove(0))
         };
-        let (of_factors, of_groups) = (sums(Effect::is_input), sums(Effect::is_group));
+        let [of_factors, of_groups] = [Effect::is_input, Effect::is_group]
+            .map(|is_of| IndexPair { first_order: sum(&first_order, is_of), total: sum(&total, is_of) });
+        let shapley = if layout.shapley { all.judge(&all.shapley(&positions(Effect::is_input))) } else { Vec::new() };
+        let [first_order, total, interactions] = [first_order, total, interactions].map(|kind| all.judge(&kind));
         let effects = layout.effects.iter().enumerate().map(|(at, &effect)| {
-            let is_read = |of: &Judgement| if unread.get(at) == Some(&true) { exactly(0.0) } else { of.clone() };
-            let (first_order, total) = (is_read(&first_order[at]), is_read(&of_totals[at]));
+            let read = |kind: &[Judgement]| match unread.get(at) {
+                Some(true) => kind.get(at).map(|_| exactly(0.0)),
+                _ => kind.get(at).cloned(),
+            };
+            let [first_order, total, interaction] =
+                [&first_order, &total, &interactions].map(|kind| read(kind).unwrap_or_else(|| exactly(0.0)));
             let whole = if effect.is_group() { &of_groups } else { &of_factors };
             EffectQuantities {
                 effect,
@@ -184,82 +154,23 @@ impl PlainRows {
                     total: share(&total, &whole.total),
                 },
                 check_gap: Judgement { estimate: Estimate::alone(0.0), ..exactly(0.0) },
-                interaction: is_read(&interactions[at]),
+                interaction,
                 others: Vec::new(),
                 of_mean: None,
-                shapley: shapley.as_ref().and_then(|all| all.get(at)).map(is_read),
+                shapley: read(&shapley),
                 first_order,
                 total,
             }
         });
+        let pairs = self.effects.pairs.iter().zip(all.judge(&all.pairs()));
         Quantities {
             effects: effects.collect(),
             sums: of_factors.clone(),
             redrawn: Vec::new(),
-            pairs: pairs.iter().zip(of_pairs).map(|(&factors, value)| OfPair { factors, value }).collect(),
+            pairs: pairs.map(|(&factors, value)| OfPair { factors, value }).collect(),
             mean_share: None,
         }
     }
-}
-
-/// The variances of the sets of factors of a fit, and of the fits without each part of the rows.
-struct Judged<'a> {
-    fit: &'a PlainFit,
-    held_out: HeldOut<'a>,
-    variances: Vec<f64>,
-    of_parts: Vec<Vec<f64>>,
-}
-
-impl<'a> Judged<'a> {
-    fn new(fit: &'a PlainFit) -> Self {
-        let (variances, of_parts) = fit.chaos.variances_of_sets();
-        Self { fit, held_out: HeldOut::new(&fit.chaos), variances, of_parts }
-    }
-
-    /// Returns 1 for each of the sets that are in an effect, else 0.
-    fn weights(&self, is_in: impl Fn(&[usize]) -> bool) -> Vec<f64> {
-        self.fit.chaos.sets().iter().map(|set| f64::from(u8::from(is_in(set)))).collect()
-    }
-
-    /// Computes indices of one kind, sums of the variances of sets with these weights over `whole`; the errors of the
-    /// sums by the tails are `beyond`.
-    fn judged(&self, kind: &[Vec<f64>], beyond: &[f64], whole: f64) -> Vec<Judgement> {
-        let sum = |weights: &[f64], variances: &[f64]| weights.iter().zip(variances).map(|(w, v)| w * v).sum::<f64>();
-        let indices: Vec<f64> = kind.iter().map(|weights| sum(weights, &self.variances) / whole).collect();
-        let shares = |weights: &[f64]| -> Vec<f64> {
-            self.of_parts.iter().map(|of| sum(weights, of) / of.iter().sum::<f64>().max(f64::MIN_POSITIVE)).collect()
-        };
-        let of_parts: Vec<Vec<f64>> = kind.iter().map(|weights| shares(weights)).collect();
-        let spreads = kind.iter().zip(&indices).zip(&of_parts);
-        let spreads: Vec<Spread> =
-            spreads.map(|((weights, index), parts)| self.held_out.spread(weights, *index, parts)).collect();
-        let half_widths = self.held_out.half_widths(&spreads);
-        let all = indices.into_iter().zip(of_parts).zip(half_widths).zip(beyond);
-        all.map(|(((index, mut parts), half), beyond)| {
-            let centre = apportion_base::sum::mean(&parts);
-            parts.iter_mut().for_each(|part| *part = centre - *part);
-            about(index, half + self.fit.beyond(index, *beyond), parts)
-        })
-        .collect()
-    }
-}
-
-fn is_within(set: &[usize], effect: &[usize]) -> bool {
-    set.iter().all(|factor| effect.contains(factor))
-}
-
-fn touches(set: &[usize], effect: &[usize]) -> bool {
-    set.iter().any(|factor| effect.contains(factor))
-}
-
-fn about(estimate: f64, half: f64, parts: Vec<f64>) -> Judgement {
-    let interval = Some(Interval::about(estimate, half));
-    let error = StandardError { error: half / NORMAL_QUANTILE, freedom: FREEDOM };
-    Judgement::new(Estimate { estimate, interval }, error, vec![parts])
-}
-
-fn exactly(estimate: f64) -> Judgement {
-    about(estimate, 0.0, Vec::new())
 }
 
 /// Returns 100 part/all, whose errors may add.

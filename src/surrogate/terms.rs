@@ -59,18 +59,35 @@ impl Effects {
     }
 }
 
-/// Returns whether all factors of a term are in a swap.
-pub(crate) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
-    !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
+/// A member of a term or of a set of factors.
+pub(crate) trait Member {
+    fn factor(&self) -> usize;
 }
 
-pub(crate) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
-    term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
+impl Member for usize {
+    fn factor(&self) -> usize {
+        *self
+    }
 }
 
-/// Returns whether a term has factors of two swaps, and none of others.
-pub(crate) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
-    let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
+impl Member for (usize, usize) {
+    fn factor(&self) -> usize {
+        self.0
+    }
+}
+
+/// Returns whether all factors of a term or a set are in a swap, and there are some.
+pub(crate) fn within(term: &[impl Member], swap: &[usize]) -> bool {
+    !term.is_empty() && term.iter().all(|member| swap.binary_search(&member.factor()).is_ok())
+}
+
+pub(crate) fn touches(term: &[impl Member], swap: &[usize]) -> bool {
+    term.iter().any(|member| swap.binary_search(&member.factor()).is_ok())
+}
+
+/// Returns whether a term or a set has factors of two swaps, and none of others.
+pub(crate) fn is_interaction<M: Member>(term: &[M], first: &[usize], second: &[usize]) -> bool {
+    let is_theirs = |member: &M| first.contains(&member.factor()) || second.contains(&member.factor());
     touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
 }
 

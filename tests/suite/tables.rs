@@ -157,7 +157,7 @@ fn labels_that_evaluate_wrote_are_read_by_the_study() {
                  wet = { distribution = \"boolean\" }\nprobe = { distribution = \"categorical\", labels = [\"steel\", \"#2, brass\"] }\n";
     let study = folder.with("s.toml", study);
     let (rows, table) = (folder.path("rows.csv"), folder.path("table.csv"));
-    succeed(&["sample", text(&study), "--random", "400", "-o", text(&rows)]);
+    succeed(&["sample", text(&study), "--runs", "400", "-o", text(&rows)]);
     succeed(&["evaluate", text(&study), text(&rows), "--with-points", "-o", text(&table)]);
     let result = given(&folder, "table.csv", &["--study", text(&study)]);
     let inputs: Vec<&str> = result.inputs.iter().map(|input| input.name.as_str()).collect();

@@ -2,29 +2,55 @@
 
 use super::marginals::Influences;
 use super::{SurrogateIndices, SurrogateOutput};
-use crate::correction::{HeldOut, PlainFit};
-use crate::surrogate::leading_terms;
+use crate::correction::{Judged, PlainFit};
+use crate::surrogate::{Effects, leading_terms};
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 
 /// Computes the estimates of the inputs with these names, whose distributions may be those of the columns; the fit is by
 /// `polynomials_of` them.
 pub(super) fn surrogate_output(
     fit: &PlainFit,
+    effects: &Effects,
     polynomials_of: &str,
     names: &[&str],
     uses_columns: bool,
 ) -> SurrogateOutput {
-    let PlainFit { chaos, expansion, extrapolation } = fit;
+    let PlainFit { chaos, expansion, .. } = fit;
     let influences = uses_columns.then(|| Influences::new(chaos.basis(), expansion));
-    let (first_order, total) = chaos.indices();
-    let judged = Judged { fit, held_out: HeldOut::new(chaos), influences };
-    let of_first = judged.kind(&first_order, &extrapolation.first_order, true);
-    let of_total = judged.kind(&total, &extrapolation.total, false);
-    let indices = names.iter().zip(of_first).zip(of_total).map(|((name, first_order), total)| SurrogateIndices {
-        input: (*name).to_owned(),
-        first_order,
-        total,
-    });
+    let judged = Judged::new(fit, effects);
+    // The error of an index by the distributions of the columns.
+    let by_columns = |estimate: f64, of: &dyn Fn(&Influences) -> &Vec<f64>| {
+        let squares = influences.as_ref().map_or(0.0, |all| {
+            let moves = of(all).iter().zip(&all.variance).map(|(own, all)| own - estimate * all);
+            moves.map(|x| x * x).sum::<f64>() / all.variance.len().pow(2) as f64
+        });
+        NORMAL_QUANTILE * squares.sqrt() / (chaos.variances.all + chaos.rest)
+    };
+    let widened = |Estimate { estimate, interval }: Estimate, of: &dyn Fn(&Influences) -> &Vec<f64>| {
+        let more = by_columns(estimate, of);
+        let wider = |Interval { low, high }: Interval| Interval { low: low - more, high: high + more };
+        Estimate { estimate, interval: interval.map(wider) }
+    };
+    let (mut first_order, mut total) = (judged.first_order(), judged.total());
+    // Those of a product are integrals.
+    for (input, of) in first_order.iter_mut().enumerate() {
+        of.variance = chaos.variances.first_order[input];
+        of.of_parts =
+            chaos.variances_of_parts().map(|of| of.first_order[input] / of.all.max(f64::MIN_POSITIVE)).collect();
+    }
+    for (input, of) in total.iter_mut().enumerate() {
+        of.variance = chaos.variances.total[input];
+        of.of_parts = chaos.variances_of_parts().map(|of| of.total[input] / of.all.max(f64::MIN_POSITIVE)).collect();
+    }
+    let [of_first, of_total] = [first_order, total].map(|kind| judged.judge(&kind));
+    let all = names.iter().zip(of_first).zip(of_total).enumerate();
+    let indices: Vec<SurrogateIndices> = all
+        .map(|(input, ((name, first_order), total))| SurrogateIndices {
+            input: (*name).to_owned(),
+            first_order: widened(first_order.estimate, &|all| &all.first_order[input]),
+            total: widened(total.estimate, &|all| &all.total[input]),
+        })
+        .collect();
     let explained = 1.0 - chaos.rest;
     let leading = leading_terms(std::slice::from_ref(expansion), chaos.variances.all);
     SurrogateOutput {
@@ -34,45 +60,7 @@ pub(super) fn surrogate_output(
         polynomials_of: polynomials_of.to_owned(),
         terms: chaos.terms().count() as f64,
         leading_terms: leading.iter().map(|term| term.named(names)).collect(),
-        sum_first_order: first_order.iter().sum(),
-        indices: indices.collect(),
-    }
-}
-
-/// What intervals are made of.
-struct Judged<'a> {
-    fit: &'a PlainFit,
-    held_out: HeldOut<'a>,
-    /// Those of the rows through the distributions of the columns.
-    influences: Option<Influences>,
-}
-
-impl Judged<'_> {
-    /// Returns the first-order or the total `indices` with their intervals; `beyond` are the errors of their numerators
-    /// that no rows show.
-    fn kind(&self, indices: &[f64], beyond: &[f64], is_first: bool) -> Vec<Estimate> {
-        let chaos = &self.fit.chaos;
-        let spreads = indices.iter().enumerate().map(|(input, index)| {
-            let is_in = |set: &Vec<usize>| set.contains(&input) && !(is_first && set.len() > 1);
-            let weights: Vec<f64> = chaos.sets().iter().map(|set| f64::from(u8::from(is_in(set)))).collect();
-            let of_parts = chaos.variances_of_parts().map(|of| {
-                let own = if is_first { of.first_order[input] } else { of.total[input] };
-                own / of.all.max(f64::MIN_POSITIVE)
-            });
-            self.held_out.spread(&weights, *index, &of_parts.collect::<Vec<f64>>())
-        });
-        let half_widths = self.held_out.half_widths(&spreads.collect::<Vec<_>>());
-        let all = indices.iter().zip(half_widths).zip(beyond).enumerate();
-        all.map(|(input, ((&estimate, half), beyond))| {
-            let own = self.influences.as_ref().map(|all| (all, if is_first { &all.first_order } else { &all.total }));
-            let squares = own.map_or(0.0, |(all, own)| {
-                let moves = own[input].iter().zip(&all.variance).map(|(own, all)| own - estimate * all);
-                moves.map(|x| x * x).sum::<f64>() / all.variance.len().pow(2) as f64
-            });
-            let by_columns = NORMAL_QUANTILE * squares.sqrt() / (chaos.variances.all + chaos.rest);
-            let half = half + self.fit.beyond(estimate, *beyond) + by_columns;
-            Estimate { estimate, interval: Some(Interval::about(estimate, half)) }
-        })
-        .collect()
+        sum_first_order: indices.iter().map(|of| of.first_order.estimate).sum(),
+        indices,
     }
 }

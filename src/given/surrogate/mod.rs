@@ -197,6 +197,6 @@ impl Job<'_> {
                 (best, name) = (next, coordinates.name);
             }
         }
-        Ok(estimates::surrogate_output(&best, name, self.names, self.uses_columns))
+        Ok(estimates::surrogate_output(&best, &effects, name, self.names, self.uses_columns))
     }
 }

@@ -43,6 +43,8 @@ pub(crate) struct Chaos {
     coefficients: Vec<f64>,
     /// Its variances, corrected by the rows to which it is not fitted.
     pub variances: EffectVariances,
+    /// What these rows add to the variance of each set; none if it is fitted to all.
+    moves: Vec<f64>,
     /// For each part of the rows that are fitted the same without it.
     of_parts: Vec<FittedPart>,
     /// What is left of every row by the fit without its part.
@@ -138,17 +140,22 @@ impl Chaos {
         }
         let mean = apportion_base::sum::mean(&left);
         left.iter_mut().for_each(|e| *e -= mean);
-        let terms: Vec<(&Term, f64)> = self.terms().collect();
-        let moves: Vec<f64> = terms
-            .par_iter()
-            .map(|(term, c)| 2.0 * c * product(&basis.values(term, others.clone()), &left) / others.len() as f64)
+        let terms = (0..self.coefficients.len()).filter(|j| self.coefficients[*j] != 0.0);
+        let moves: Vec<(usize, f64)> = terms
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|j| {
+                let (set, values) = (self.listed.set_of(j), basis.values(&self.listed.terms[j], others.clone()));
+                (set, 2.0 * self.coefficients[j] * product(&values, &left) / others.len() as f64)
+            })
             .collect();
+        let mut of_sets = vec![0.0; self.listed.sets.len()];
         let mut variances = self.variances.clone();
-        for ((term, _), more) in terms.iter().zip(moves) {
-            let set: Vec<usize> = term.iter().map(|(factor, _)| *factor).collect();
-            variances.add(&set, more);
+        for (number, more) in moves {
+            variances.add(&self.listed.sets[number], more);
+            of_sets[number] += more;
         }
-        self.variances = variances;
+        (self.variances, self.moves) = (variances, of_sets);
     }
 
     fn chosen(prior: Prior, product: Option<&Product>) -> Self {
@@ -171,7 +178,7 @@ impl Chaos {
         });
         let of_parts = of_parts.collect();
         let (rest, has_product) = (rest * scale * scale, product.is_some());
-        Self { listed, coefficients, variances, of_parts, left, rest, has_product, scale }
+        Self { listed, coefficients, variances, moves: Vec::new(), of_parts, left, rest, has_product, scale }
     }
 
     /// Returns a bound on the error of its indices that grows with what it leaves.
@@ -218,20 +225,14 @@ impl Chaos {
     /// Returns the variance of the terms of each set, and those by the fits without each part.
     pub fn variances_of_sets(&self) -> (Vec<f64>, Vec<Vec<f64>>) {
         let of_parts = self.of_parts.par_iter().map(|of| self.listed.variances_of_sets(&of.coefficients));
-        (self.listed.variances_of_sets(&self.coefficients), of_parts.collect())
+        let mut all = self.listed.variances_of_sets(&self.coefficients);
+        all.iter_mut().zip(&self.moves).for_each(|(variance, more)| *variance += more);
+        (all, of_parts.collect())
     }
 
-    /// Returns the variances of the fits without each part.
+    /// Returns the variances of the fits without each part; those of a product are integrals.
     pub fn variances_of_parts(&self) -> impl Iterator<Item = &EffectVariances> {
         self.of_parts.iter().map(|of| &of.variances)
-    }
-
-    /// Returns first-order and total indices. What is left is rather an interaction than a part of one factor alone,
-    /// and the more it is, the rather noise.
-    pub fn indices(&self) -> (Vec<f64>, Vec<f64>) {
-        let EffectVariances { first_order, total, all } = &self.variances;
-        let first_order = first_order.iter().map(|v| v / (all + self.rest)).collect();
-        (first_order, total.iter().map(|v| v / (all + self.rest * self.rest)).collect())
     }
 }
 

@@ -272,6 +272,11 @@ impl Listed {
         variances
     }
 
+    /// Returns the number of the set of factors of a term.
+    pub fn set_of(&self, term: usize) -> usize {
+        self.subsets[term]
+    }
+
     /// Returns the variance of the terms of each set of factors.
     pub fn variances_of_sets(&self, coefficients: &[f64]) -> Vec<f64> {
         self.members(coefficients).iter().map(|members| self.variance(members, coefficients)).collect()

@@ -149,9 +149,8 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 fn save(study: &Study, result: &StudyResult, (path, format, store): &(&PathBuf, Format, Store)) -> anyhow::Result<()> {
     let settings = study.design().settings();
     let design = study.design().with_points(result.provenance.base_samples / settings.replicates)?;
-    let rows = design.rows();
-    stream_atomically(path, |out| write_rows(study, &design, Some(store), rows, *format, &mut Stoppable::new(out)))?;
-    say(&format!("wrote the points and outputs of {rows} runs to {}", path.display()));
+    stream_atomically(path, |out| write_rows(study, &design, Some(store), *format, &mut Stoppable::new(out)))?;
+    say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }
 

@@ -5,15 +5,12 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion_base::digest::sha256_of_file;
 use apportion_base::files::read_text;
-use apportion_files::exchange::{Format, Manifest, random_design, sample as write_sample, write_rows};
+use apportion_files::exchange::{Format, Manifest, sample as write_sample};
 use apportion_report::{prepare_outputs, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
 use super::{DesignChanges, StudyArguments, counted, say};
 use crate::failure::OfFile;
-
-/// Most random points.
-const MAX_RANDOM: u64 = 2 * apportion::design::Design::MAX_POINTS;
 
 #[derive(clap::Args)]
 #[command(after_help = "FILE.manifest.json next to FILE describes the points: keep them together. When the outputs \
@@ -23,27 +20,23 @@ pub struct Arguments {
     study: StudyArguments,
     #[command(flatten)]
     design: DesignChanges,
-    /// Write N random points instead of those of the design: for few runs, analysed with `apportion given-data`
-    #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
-    random: Option<u64>,
     /// Overwrite an existing file that is not a design of this study
     #[arg(long)]
     force: bool,
-    /// The file for the points, .csv or .npy [default: NAME-design.csv, or NAME-random.csv]
+    /// The file for the points, .csv or .npy [default: NAME-design.csv]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
-    let kind = if arguments.random.is_some() { "random" } else { "design" };
-    let default = PathBuf::from(format!("{}-{kind}.csv", study.name()));
+    let default = PathBuf::from(format!("{}-design.csv", study.name()));
     let path = arguments.output.clone().unwrap_or(default);
     let format = Format::from_path(&path).in_file(&path)?;
     let manifest_path = Manifest::path_for(&path);
     let is_own = arguments.force || is_design_of(&path, study.name());
     prepare_outputs(&study.files(), &[path.clone(), manifest_path.clone()], is_own)?;
-    if arguments.random.is_none() && study.target().grows() {
+    if study.target().grows() {
         say("note: a run of this study adds points until its target is met: these are its first points");
     }
     // A manifest of other points must not stay after they are replaced.
@@ -53,12 +46,6 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
         return Err(anyhow!("cannot replace {}: {error}", manifest_path.display()));
     }
     let factors = counted(study.space().factors().len() as u64, "factor");
-    if let Some(rows) = arguments.random {
-        let design = random_design(&study, rows)?;
-        stream_atomically(&path, |out| write_rows(&study, &design, None, rows, format, &mut Stoppable::new(out)))?;
-        say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
-        return Ok(());
-    }
     let file = &arguments.study.study;
     let mut manifest = stream_atomically(&path, |out| write_sample(&study, file, format, &mut Stoppable::new(out)))?;
     manifest.file_sha256 = sha256_of_file(&path)?;

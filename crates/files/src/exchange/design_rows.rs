@@ -4,7 +4,7 @@ use std::io::Write;
 use std::ops::Range;
 use std::path::Path;
 
-use apportion::design::{Design, DesignError, DesignSettings, Rows, Sampler};
+use apportion::design::Design;
 use apportion::model::Output;
 use apportion::run::{RowValues, Store};
 use apportion::space::{Factor, Space};
@@ -79,29 +79,12 @@ pub(super) fn add_rows(digest: &mut Sha256, columns: &[Vec<f64>]) {
 /// # Errors
 /// Any error of the file system.
 pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
-    let digest = write_rows(study, study.design(), None, study.design().rows(), format, out)?;
+    let digest = write_rows(study, study.design(), None, format, out)?;
     Ok(Manifest::new(study, study_file, digest))
 }
 
-/// Returns the design whose first `rows` rows are random points of the factors of `study`, independent of each other.
-/// They are determined by the seed of the study.
-///
-/// # Errors
-/// [`DesignError`] if `rows` is 0 or more than 2^33.
-pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
-    // Only the rows A and B of a design.
-    let settings = DesignSettings {
-        sampler: Sampler::Random,
-        base_samples: rows.div_ceil(2).max(2),
-        replicates: 1,
-        seed: study.design().settings().seed,
-    };
-    let of_design = Rows { copula: study.design().requested().copula.clone(), ..Rows::default() };
-    Design::new(settings, study.design().factors(), of_design)
-}
-
-/// Writes the first `max_rows` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
-/// of their numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
+/// Writes the rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
+/// numbers.
 ///
 /// With a store, each row is followed by its outputs in their units; a failed output is an empty cell (CSV) or NaN
 /// (NPY). Uses constant memory in addition to the store.
@@ -112,19 +95,15 @@ pub fn write_rows(
     study: &Study,
     design: &Design,
     store: Option<&Store>,
-    max_rows: u64,
     format: Format,
     out: &mut dyn Write,
 ) -> std::io::Result<String> {
     let (space, model) = (study.space(), study.model());
     let outputs = if store.is_some() { model.outputs() } else { &[] };
-    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), max_rows)?;
+    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), design.rows())?;
     let mut answers = vec![Vec::new(); outputs.len()];
-    let (mut digest, mut left) = (Sha256::default(), max_rows);
+    let mut digest = Sha256::default();
     each_block(space, design, |replicate, rows, points| {
-        let count = left.min(rows.end - rows.start);
-        left -= count;
-        points.iter_mut().for_each(|column| column.truncate(count as usize));
         add_rows(&mut digest, points);
         if let Some(store) = store {
             let block = store.block(replicate, rows);
