@@ -41,10 +41,13 @@ check: _rust _python
 test *arguments: _cargo
     cargo test --release {{ arguments }}
 
-# The book, its links, and every command and output on its pages
-docs: _cargo _python (_tool "mdbook" "cargo install mdbook --version 0.5.4 --locked") (_tool "parallel" "a package of the system, as in apt-get install parallel")
+# The book as a site in target/just/book, and its links
+book: _python (_tool "mdbook" "cargo install mdbook --version 0.5.4 --locked")
     mdbook build --dest-dir {{ quote(environments / "book") }}
     {{ python }} .ci/check_book.py {{ quote(environments / "book") }}
+
+# The book, and every command and output on its pages
+docs: _cargo book (_tool "parallel" "a package of the system, as in apt-get install parallel")
     cargo test --release --test documents
 
 # A small reproduction, and the pages of all commands in a browser
