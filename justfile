@@ -75,7 +75,7 @@ pages: _cargo (_environment "pages" "-r tests/browser/requirements.txt")
 
 # Lints and types of the Python package; a wheel, installed in a new environment, and its tests there
 python: _cargo (_tool "mpirun" "a package of the system, as in apt-get install openmpi-bin") (_environment "python" "-r python/tests/requirements.txt maturin mypy ruff")
-    {{ quote(in_python / "ruff") }} check python .ci
+    {{ quote(in_python / "ruff") }} check --config python/pyproject.toml python .ci
     cd python && {{ quote(in_python / "mypy") }} python/apportion
     rm -rf {{ quote(environments / "wheels") }}
     CARGO_TARGET_DIR={{ quote(target / "python") }} {{ quote(in_python / "maturin") }} build --release --quiet --manifest-path python/Cargo.toml --out {{ quote(environments / "wheels") }}
