@@ -54,7 +54,7 @@ def _starts(columns: list[list[int]], x: np.ndarray, step: int) -> np.ndarray:
                 expected[:, own] = other[:, own]
                 fits[:count] &= np.isclose(x[place : place + count], expected, rtol=1e-9, atol=0).all(axis=1)
     starts, free = [], 0
-    for start in np.flatnonzero(fits):
+    for start in np.flatnonzero(fits).tolist():
         if start >= free:
             starts.append(start)
             free = start + step
@@ -84,7 +84,7 @@ def _ranks(columns: np.ndarray) -> np.ndarray:
 def _independent(names: list[str], a: np.ndarray, b: np.ndarray) -> None:
     n, d = a.shape
     varying = np.ptp(np.vstack([a, b]), axis=0) > 0
-    for j in np.flatnonzero(varying):
+    for j in np.flatnonzero(varying).tolist():
         both = np.sort(np.concatenate([a[:, j], b[:, j]]))
         gap = np.abs(np.searchsorted(np.sort(a[:, j]), both, "right") - np.searchsorted(np.sort(b[:, j]), both, "right")).max() / n
         # A chance of 1e-6 by the test of Kolmogorov and Smirnov.
