@@ -31,6 +31,12 @@ const STEP_SIDE: f64 = 1e-9;
 /// Measured on sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
+/// Share of the square of a group below which a coefficient is rounding or noise.
+const NOTHING: f64 = 1e-10;
+
+/// Multiple of the last level among the rows that an output may have at the levels beyond, if nothing determines them.
+const OPEN: f64 = 2.0;
+
 /// A function that returns the polynomials of a family at a distance in the quantile from one of its ends.
 type Polynomials = fn(&Family, &[f64], usize) -> Vec<Vec<f64>>;
 
@@ -76,12 +82,12 @@ impl Tail {
         sides.collect()
     }
 
-    /// Computes the departure of the polynomial of `group` from its tangent.
-    fn departure(&self, group: &Group) -> Departure {
+    /// Computes the departure of the polynomial of `group` from its tangent, at most to this multiple of it.
+    fn departure(&self, group: &Group, most: f64) -> Departure {
         let mut departure = Departure::default();
         for (node, weight) in self.weights.iter().enumerate() {
             let (p, q) = (group.value(&self.values, node), group.value(&self.tangents, node));
-            departure.add(*weight, p, q);
+            departure.add(*weight, if p.abs() > most * q.abs() { most * q } else { p }, q);
         }
         departure
     }
@@ -164,16 +170,23 @@ impl ExtrapolationError {
         for (factor, family) in families.iter().enumerate() {
             let degree = expansions.iter().map(|expansion| degree(&expansion.terms, factor)).max().unwrap_or(0);
             let tails = if degree > 0 { Tail::both(family, mass, degree) } else { Vec::new() };
+            let levels = match family.own() {
+                Family::Orthogonal(polynomials) => polynomials.levels_among(1.0 / mass),
+                _ => None,
+            };
             let steps = if degree > 0 { Tail::steps(family, degree) } else { Vec::new() };
             if tails.is_empty() && steps.is_empty() {
                 continue;
             }
             let of_factor = (factor, Term::new())..(factor + 1, Term::new());
             for ((_, others), group) in groups.iter().flat_map(|groups| groups.range(of_factor.clone())) {
-                let highest = group.coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
-                // A close fit determines tails, and no steps.
-                let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                let [tail, step] = [&tails, &steps].map(|of| Departure::sum(of, |tail| tail.departure(group)));
+                let highest = group.highest(0.0);
+                // A close fit determines tails, and no steps. One that passes through all levels shows nothing.
+                let is_open = levels.is_some_and(|levels| group.highest(NOTHING) + 1 >= levels);
+                let by_rest = (libm::pow(GROWTH, highest as f64) * rest).min(1.0);
+                let (weight, most) = if is_open { (share, OPEN) } else { (share * by_rest, f64::INFINITY) };
+                let tail = Departure::sum(&tails, |tail| tail.departure(group, most));
+                let step = Departure::sum(&steps, |step| step.departure(group, f64::INFINITY));
                 let rise = Departure::sum(&tails, |tail| tail.rise(group));
                 let mean = weight * tail.mean + share * (step.mean + rest * rise.mean);
                 if others.is_empty() {
@@ -230,6 +243,13 @@ pub(crate) struct Group {
 }
 
 impl Group {
+    /// Returns the highest degree whose coefficient has more than this share of their square.
+    fn highest(&self, share: f64) -> usize {
+        let square: f64 = self.coefficients.iter().map(|(_, b)| b * b).sum();
+        let large = self.coefficients.iter().filter(|(_, b)| b * b >= share * square);
+        large.map(|(degree, _)| *degree).max().unwrap_or(0)
+    }
+
     /// Returns their sum at a node, given the polynomials of degree 1, 2, ... at the nodes.
     fn value(&self, columns: &[Vec<f64>], node: usize) -> f64 {
         self.offset + self.coefficients.iter().map(|&(degree, b)| b * columns[degree - 1][node]).sum::<f64>()

@@ -152,6 +152,12 @@ impl OrthogonalPolynomials {
         self.distribution.levels().is_some()
     }
 
+    /// Returns how many of its values are expected at least once among `rows` rows; `None` if it is continuous.
+    pub fn levels_among(&self, rows: f64) -> Option<usize> {
+        let levels = of_levels(&self.distribution, &self.distribution.levels()?);
+        Some(levels.iter().filter(|(_, probability)| probability * rows >= 1.0).count())
+    }
+
     /// Returns the polynomials of degree 1, 2, ... and at most `degree` at the quantiles of `u`, a column for each.
     pub fn columns(&self, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];
