@@ -9,7 +9,7 @@ use crate::effect::IndexPair;
 use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::outputs::Scale;
 use crate::surrogate::{Effects, Expansion, Family, leading_terms};
-use crate::uncertainty::PartInfluences;
+use crate::uncertainty::{PartInfluences, RULE_OF_THREE};
 
 /// Residual share of the variance above which, and effective number of rows in it (three over their kurtosis times
 /// their number) below which, corrected intervals must include the plain ones: a fit misses what the runs miss.
@@ -40,6 +40,10 @@ impl Corrected {
     ) -> Self {
         let (rest, points) = (mean_square_residual(&nets), design.settings().base_samples);
         let extrapolation = ExtrapolationError::new(&expansions, families, points, rest, effects);
+        // Those that have rows are corrected.
+        let unseen = RULE_OF_THREE / points as f64;
+        let first = expansions.first().into_iter().flat_map(Expansion::varying);
+        let extrapolation = extrapolation.with_rare_counts(first, unseen, families, effects);
         Self { nets, expansions, extrapolation }
     }
 

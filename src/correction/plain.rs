@@ -34,7 +34,8 @@ impl PlainFit {
         let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));
         let (terms, coefficients): (Vec<Term>, Vec<f64>) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
         let expansions = [Expansion { terms: terms.into(), coefficients }];
-        let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, effects);
+        let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, effects)
+            .with_rare_counts(chaos.terms(), 1.0, families, effects);
         let [expansion] = expansions;
         Self { chaos, expansion, extrapolation }
     }

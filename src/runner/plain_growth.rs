@@ -27,12 +27,8 @@ const ENOUGH_STAGES: usize = 5;
 /// Ratio of predicted half widths from which swaps are clearly better.
 const CLEARLY: f64 = 0.7;
 
-/// Half width of the indices that swaps of some points measure, times the root of their number, as a share of what a surrogate
-/// leaves: a surrogate of fewer rows, which leaves more of smooth outputs than of those that are not.
-const SWAPPED: f64 = 8.0;
-
-/// What a surrogate leaves of an output that it can learn from more rows.
-const LEARNT: f64 = 0.02;
+/// Half width of the indices that swaps measure, in units of the root of what a surrogate leaves over the number of points.
+const SWAPPED: f64 = 2.0;
 
 /// What a stage shows of its accuracy.
 struct Stage {
@@ -132,11 +128,10 @@ impl Growth<'_> {
         let Some(next) = sizes.iter().find(|size| **size > rows) else { return Next::Stop(None) };
         let last = &stages[stages.len() - 1];
         let points = (most - rows) as f64 / self.study.swapped_rows() as f64;
-        let by_swaps = last.rest * SWAPPED / points.sqrt();
+        let by_swaps = SWAPPED * (last.rest / points).sqrt();
         let by_rows = last.widest.map_or(0.0, |widest| widest * libm::pow(rows as f64 / most as f64, power(stages)));
         // Swaps do not narrow what is due to few rows.
-        let is_rest =
-            !last.is_doubted && last.rest > LEARNT && last.widest.is_some_and(|widest| 2.0 * last.rest > widest);
+        let is_rest = !last.is_doubted && last.widest.is_some_and(|widest| 2.0 * last.rest > widest);
         if is_rest && by_swaps < CLEARLY * by_rows { Next::Swaps } else { Next::Rows(*next) }
     }
 }

@@ -31,6 +31,9 @@ const STEP_SIDE: f64 = 1e-9;
 /// Measured on sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
+/// Probability of the counts that are not among the levels of a factor.
+const RARE_COUNTS: f64 = 2e-3;
+
 /// Share of the square of a group below which a coefficient is rounding or noise.
 const NOTHING: f64 = 1e-10;
 
@@ -200,6 +203,20 @@ impl ExtrapolationError {
             }
         }
         all
+    }
+
+    /// Adds what the rarest counts, which have no terms of their own, may contribute to those of an expansion: counts of at
+    /// most this probability.
+    pub fn with_rare_counts<'a>(
+        mut self,
+        terms: impl Iterator<Item = (&'a Term, f64)>,
+        most: f64,
+        families: &[Family],
+        effects: &Effects,
+    ) -> Self {
+        let of_counts = terms.filter(|(term, _)| term.iter().any(|(factor, _)| families[*factor].is_count()));
+        of_counts.for_each(|(term, b)| self.add(term, most.min(RARE_COUNTS) * b * b, effects));
+        self
     }
 
     fn add(&mut self, term: &[(usize, usize)], error: f64, effects: &Effects) {

@@ -66,6 +66,11 @@ impl Family {
         }
     }
 
+    /// Returns whether its polynomials are of counts without a bound.
+    pub fn is_count(&self) -> bool {
+        matches!(self.own(), Self::Orthogonal(polynomials) if polynomials.is_count())
+    }
+
     /// Returns the family with the polynomials `by` instead of its own if it is without bounds.
     pub fn replaced(&self, by: Self) -> Self {
         match self.is_unbounded() && *self != by && self.degree() > 0 {

@@ -21,9 +21,6 @@ const RULE: [(f64, f64); 5] = [
 /// Relative error of the standard deviation by quadrature that is more than rounding.
 const MISSED: f64 = 1e-8;
 
-/// Probability of the counts of a Poisson distribution that the polynomials ignore, on either side.
-const MISSED_COUNTS: f64 = 1e-13;
-
 /// Length of the new part of a polynomial below which it vanishes: there are as many degrees as levels.
 const NOTHING: f64 = 1e-7;
 
@@ -95,10 +92,7 @@ impl OrthogonalPolynomials {
     /// moments of one without bounds. `None` for a constant, or if unknown steps spoil the standard deviation by
     /// quadrature.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
-        let levels = match distribution {
-            Distribution::Poisson(poisson) => poisson.levels_above(MISSED_COUNTS),
-            _ => distribution.levels(),
-        };
+        let levels = distribution.levels();
         let ends = levels.as_ref().and_then(|levels| Some((levels.first()?.0, levels.last()?.0)));
         let (low, high) = ends.unwrap_or_else(|| distribution.support());
         if (high - low).is_infinite() {
@@ -117,11 +111,10 @@ impl OrthogonalPolynomials {
         };
         let (mean, sd) = (distribution.mean(), distribution.sd());
         let variance: f64 = nodes.iter().map(|(x, weight)| weight * (x - mean) * (x - mean)).sum();
-        if (variance.sqrt() - sd).abs() > MISSED * sd {
-            return None;
-        }
         let recurrence = Recurrence::new(&nodes, (low, high), degree)?;
-        Some(Self { distribution: distribution.clone(), recurrence })
+        let polynomials = Self { distribution: distribution.clone(), recurrence };
+        let is_exact = (variance.sqrt() - sd).abs() <= MISSED * sd || polynomials.is_count();
+        is_exact.then_some(polynomials)
     }
 
     /// Does the same for a continuous distribution without a bound.
@@ -162,13 +155,27 @@ impl OrthogonalPolynomials {
     pub fn columns(&self, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];
         self.distribution.fill(u, &mut x);
-        self.recurrence.columns(&x, degree)
+        self.recurrence.columns(&self.within_levels(x), degree)
     }
 
     /// Returns the same at the quantiles of 1 - `v`, to full precision if `v` is small.
     pub fn upper_columns(&self, v: &[f64]) -> Vec<Vec<f64>> {
         let x: Vec<f64> = v.iter().map(|v| self.distribution.upper_quantile(*v)).collect();
-        self.recurrence.columns(&x, self.degree())
+        self.recurrence.columns(&self.within_levels(x), self.degree())
+    }
+
+    /// Returns the values with the outermost level in place of rarer counts, at which polynomials are huge.
+    fn within_levels(&self, mut x: Vec<f64>) -> Vec<f64> {
+        if self.is_count() {
+            let Recurrence { middle, half, .. } = &self.recurrence;
+            x.iter_mut().for_each(|x| *x = x.clamp(middle - half, middle + half));
+        }
+        x
+    }
+
+    /// Returns whether it is of counts without a bound, of which the rarest are not among its levels.
+    pub fn is_count(&self) -> bool {
+        matches!(self.distribution, Distribution::Poisson(_)) && self.has_levels()
     }
 }
 

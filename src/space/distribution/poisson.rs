@@ -65,12 +65,7 @@ impl Poisson {
     /// Returns the numbers that occur, except the rare ones, each with a `u` at which it is the quantile; `None` if
     /// there are more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
-        self.levels_above(Self::RARE)
-    }
-
-    /// Returns the same, except those that together are rarer than `rare` on either side.
-    pub(crate) fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
-        let table = &self.table;
+        let (rare, table) = (Self::RARE, &self.table);
         let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
         if last - first >= Self::MAX_LEVELS {
             return None;

@@ -33,6 +33,10 @@ impl Factor {
         Self { family: family.clone(), places, polynomials, knots: Vec::new(), knot_values: Vec::new() }
     }
 
+    pub fn family(&self) -> &Family {
+        &self.family
+    }
+
     /// Returns the factor without its knots.
     pub fn without_knots(&self) -> Self {
         Self { knots: Vec::new(), knot_values: Vec::new(), ..self.clone() }

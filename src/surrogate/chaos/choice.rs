@@ -190,7 +190,7 @@ impl Chaos {
     pub fn unseen(&self) -> f64 {
         // A close fit is right where there are no rows too, and a product has its variance from integrals.
         let share = (CLOSE * self.rest.sqrt()).min(1.0);
-        let unseen = if self.has_product { 0.0 } else { share * self.listed.unseen(&self.coefficients) };
+        let unseen = if self.has_product { 0.0 } else { self.listed.unseen(&self.coefficients, share) };
         unseen + self.open_at_steps() + ROUNDING
     }
 

@@ -315,16 +315,20 @@ impl Listed {
     }
 
     /// Returns the variance that no rows show: of each subset of factors what exceeds the mean square of its terms at
-    /// the rows by more than chance. It comes from where there are none.
-    pub fn unseen(&self, coefficients: &[f64]) -> f64 {
-        let rows = self.prior.rows as f64;
+    /// the rows by more than chance. It comes from where there are none. A `share` of it counts, and all of what is due to
+    /// counts, where polynomials continue nothing.
+    pub fn unseen(&self, coefficients: &[f64], share: f64) -> f64 {
+        let (rows, factors) = (self.prior.rows as f64, &self.prior.basis.factors);
         let of_subsets = self.members(coefficients).into_par_iter().map(|members| {
             let mut of_subset = vec![0.0; coefficients.len()];
             members.iter().for_each(|j| of_subset[*j] = coefficients[*j]);
             let squares: Vec<f64> = self.combined(&of_subset).iter().map(|g| g * g).collect();
             let mean = squares.iter().sum::<f64>() / rows;
             let spread = squares.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / rows;
-            (self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt()).max(0.0)
+            let excess = self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt();
+            let set = members.first().map_or(&[][..], |j| &self.sets[self.subsets[*j]]);
+            let has_counts = set.iter().any(|factor| factors[*factor].family().is_count());
+            if has_counts { excess.max(0.0) } else { share * excess.max(0.0) }
         });
         of_subsets.collect::<Vec<f64>>().iter().sum()
     }
