@@ -60,7 +60,7 @@ fn sample_overwrites_only_its_own_designs() {
     let (study, table) = (folder.with("s.toml", SUM), folder.with("t.csv", "a,b\n0.5,1\n"));
     let sample = |more: &[&str]| apportion(&[&["sample", text(&study), "-o", text(&table)], more].concat());
     let mut messages = messages!();
-    for more in [&[][..], &["--runs", "16"]] {
+    for more in [&[][..], &["--runs", "32"]] {
         messages.ended(&more.join(" "), 2, &sample(more));
         assert_eq!(std::fs::read_to_string(&table).unwrap(), "a,b\n0.5,1\n");
     }

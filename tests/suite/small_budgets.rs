@@ -3,6 +3,7 @@
 use apportion_report::given::GivenFile;
 
 use crate::common::{Folder, succeed, text};
+use crate::messages::messages;
 
 const STUDY: &str = "model = \"expression\"\noutputs.y = \"a + 2 * b + a * b\"\n[factors.a]\nmin = -1\nmax = 1\n\
                      [factors.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
@@ -31,4 +32,11 @@ fn plain_rows_of_a_study_are_a_table_of_given_data() {
         assert!((index.first_order.estimate - first / all).abs() < 1e-9, "{index:?}");
         assert!((index.total.estimate - total / all).abs() < 1e-9, "{index:?}");
     }
+}
+
+#[test]
+fn too_few_runs_are_refused() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", STUDY);
+    messages!().refused(&["run", text(&study), "--runs", "20"]);
 }
