@@ -129,16 +129,14 @@ impl PlainRows {
         let (first_order, total) = (all.first_order(), all.total());
         let interactions: Vec<Index> =
             total.iter().zip(&first_order).map(|(total, first)| total.clone().plus(-1.0, first)).collect();
-        let positions = |is_of: fn(Effect) -> bool| -> Vec<usize> {
-            (0..layout.effects.len()).filter(|at| is_of(layout.effects[*at])).collect()
-        };
         let sum = |kind: &[Index], is_of| {
-            let members = positions(is_of).into_iter().map(|at| kind[at].clone());
+            let members = positions(layout, is_of).into_iter().map(|at| kind[at].clone());
             members.reduce(|sum, of| sum.plus(1.0, &of)).map_or_else(|| exactly(0.0), |sum| all.judge(&[sum]).remove(0))
         };
         let [of_factors, of_groups] = [Effect::is_input, Effect::is_group]
             .map(|is_of| IndexPair { first_order: sum(&first_order, is_of), total: sum(&total, is_of) });
-        let shapley = if layout.shapley { all.judge(&all.shapley(&positions(Effect::is_input))) } else { Vec::new() };
+        let shapley =
+            if layout.shapley { all.judge(&all.shapley(&positions(layout, Effect::is_input))) } else { Vec::new() };
         let [first_order, total, interactions] = [first_order, total, interactions].map(|kind| all.judge(&kind));
         let effects = layout.effects.iter().enumerate().map(|(at, &effect)| {
             let read = |kind: &[Judgement]| match unread.get(at) {
@@ -172,6 +170,11 @@ impl PlainRows {
             mean_share: None,
         }
     }
+}
+
+/// Returns the positions of the effects of a kind.
+fn positions(layout: &Layout, is_of: fn(Effect) -> bool) -> Vec<usize> {
+    (0..layout.effects.len()).filter(|at| is_of(layout.effects[*at])).collect()
 }
 
 /// Returns 100 part/all, whose errors may add.

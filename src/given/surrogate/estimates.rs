@@ -18,19 +18,6 @@ pub(super) fn surrogate_output(
     let PlainFit { chaos, expansion, .. } = fit;
     let influences = uses_columns.then(|| Influences::new(chaos.basis(), expansion));
     let judged = Judged::new(fit, effects);
-    // The error of an index by the distributions of the columns.
-    let by_columns = |estimate: f64, of: &dyn Fn(&Influences) -> &Vec<f64>| {
-        let squares = influences.as_ref().map_or(0.0, |all| {
-            let moves = of(all).iter().zip(&all.variance).map(|(own, all)| own - estimate * all);
-            moves.map(|x| x * x).sum::<f64>() / all.variance.len().pow(2) as f64
-        });
-        NORMAL_QUANTILE * squares.sqrt() / (chaos.variances.all + chaos.rest)
-    };
-    let widened = |Estimate { estimate, interval }: Estimate, of: &dyn Fn(&Influences) -> &Vec<f64>| {
-        let more = by_columns(estimate, of);
-        let wider = |Interval { low, high }: Interval| Interval { low: low - more, high: high + more };
-        Estimate { estimate, interval: interval.map(wider) }
-    };
     let (mut first_order, mut total) = (judged.first_order(), judged.total());
     // Those of a product are integrals.
     for (input, of) in first_order.iter_mut().enumerate() {
@@ -43,12 +30,18 @@ pub(super) fn surrogate_output(
         of.of_parts = chaos.variances_of_parts().map(|of| of.total[input] / of.all.max(f64::MIN_POSITIVE)).collect();
     }
     let [of_first, of_total] = [first_order, total].map(|kind| judged.judge(&kind));
+    let whole = chaos.variances.all + chaos.rest;
     let all = names.iter().zip(of_first).zip(of_total).enumerate();
     let indices: Vec<SurrogateIndices> = all
-        .map(|(input, ((name, first_order), total))| SurrogateIndices {
-            input: (*name).to_owned(),
-            first_order: widened(first_order.estimate, &|all| &all.first_order[input]),
-            total: widened(total.estimate, &|all| &all.total[input]),
+        .map(|(input, ((name, first_order), total))| {
+            let [first_order, total] = [first_order, total].map(|of| of.estimate);
+            SurrogateIndices {
+                input: (*name).to_owned(),
+                first_order: influences
+                    .as_ref()
+                    .map_or(first_order, |all| widened(first_order, all, &all.first_order[input], whole)),
+                total: influences.as_ref().map_or(total, |all| widened(total, all, &all.total[input], whole)),
+            }
         })
         .collect();
     let explained = 1.0 - chaos.rest;
@@ -63,4 +56,13 @@ pub(super) fn surrogate_output(
         sum_first_order: indices.iter().map(|of| of.first_order.estimate).sum(),
         indices,
     }
+}
+
+/// Adds the error of an index by the distributions of the columns, through which the rows move its part of the `whole`
+/// variance by `own`.
+fn widened(Estimate { estimate, interval }: Estimate, all: &Influences, own: &[f64], whole: f64) -> Estimate {
+    let moves = own.iter().zip(&all.variance).map(|(own, all)| own - estimate * all);
+    let squares = moves.map(|x| x * x).sum::<f64>() / all.variance.len().pow(2) as f64;
+    let more = NORMAL_QUANTILE * squares.sqrt() / whole;
+    Estimate { estimate, interval: interval.map(|of| Interval { low: of.low - more, high: of.high + more }) }
 }
