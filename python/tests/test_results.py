@@ -175,3 +175,10 @@ def test_an_index_is_a_number():
     assert index + index == 0.5 and 1 - index == 0.75 and index * 2 == 0.5 and sum([index, index]) == 0.5
     estimate, low, high = index
     assert (estimate, low, high) == index and pickle.loads(pickle.dumps(index)) == index
+
+
+def test_warnings_are_of_the_line_that_asks():
+    for ask in (lambda: ap.analyse(two, UNIT, base_samples=65), lambda: ap.Study(two, UNIT, base_samples=65).run()):
+        with pytest.warns(ap.SensitivityWarning) as caught:
+            ask()
+        assert {warning.filename for warning in caught} == {__file__}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
@@ -33,6 +32,7 @@ from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
 from ._tables import in_order, named, numbers, placed, series_name
+from ._warnings import warn
 
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
@@ -299,7 +299,7 @@ class Study:
             values, failed = self._call.evaluate(points)
         if failed:
             rows = len({row for row, _ in failed})
-            warnings.warn(f"{rows} of {len(points)} rows failed: {failed[0][1]}", stacklevel=2)
+            warn(f"{rows} of {len(points)} rows failed: {failed[0][1]}")
         return values
 
     def run(
@@ -467,7 +467,7 @@ def _with_warnings(result: Result) -> Result:
         error.result = result
         raise error
     for warning in dict.fromkeys(result.warnings):
-        warnings.warn(warning, stacklevel=3)
+        warn(warning)
     return result
 
 
