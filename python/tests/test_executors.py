@@ -165,3 +165,32 @@ class Unaligned:
 
 def test_answers_may_lie_anywhere(cube):
     assert dict(ap.analyse(polynomial, cube, base_samples=64, executor=Unaligned(), in_flight=1).total) == expected(cube, 64)
+
+
+class Job:
+    """A job whose result() takes no timeout, and is there at the second look."""
+
+    def __init__(self, function, arguments):
+        self.work, self.looks = (function, arguments), 0
+
+    def done(self):
+        self.looks += 1
+        return self.looks > 1
+
+    def result(self):
+        assert self.looks > 1
+        function, arguments = self.work
+        return function(*arguments)
+
+
+class Queue:
+    max_workers = 2
+
+    def submit(self, function, *arguments):
+        return Job(function, arguments)
+
+
+def test_jobs_without_timeouts_are_asked_whether_they_are_done():
+    factors = {"x1": (0, 1), "x2": (0, 1), "x3": (0, 1)}
+    found = ap.analyse(polynomial, factors, base_samples=16, executor=Queue())
+    assert np.array_equal(found.total, ap.analyse(polynomial, factors, base_samples=16).total)

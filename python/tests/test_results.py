@@ -147,3 +147,38 @@ def test_outputs_and_series_are_drawn():
 def test_a_default_of_many_runs_is_reported(capsys):
     ap.Study(lambda x1, x2: x1 + x2, UNIT, vectorised=False, name="slow").run()
     assert "slow: 65536 runs of the function" in capsys.readouterr().err
+
+
+def test_names_of_outputs_belong_to_the_result():
+    pd = pytest.importorskip("pandas")
+    study = ap.Study(None, UNIT, base_samples=64)
+    y = study.sample() @ [1, 2]
+    for name in ("yield", "cost"):
+        assert list(study.analyse(pd.Series(y, name=name))) == [name]
+        assert list(study.analyse({name: y, "other": y})) == [name, "other"]
+    assert list(study.analyse(y)) == ["y"] and study.outputs == ["y"]
+
+
+def test_rows_of_pandas_go_by_their_index():
+    pd = pytest.importorskip("pandas")
+    study = ap.Study(None, UNIT, base_samples=64)
+    y = pd.Series(study.sample() @ [1, 2], name="y")
+    shuffled = y.sample(frac=1, random_state=1)
+    assert dict(study.analyse(shuffled).total) == dict(study.analyse(y).total)
+    assert dict(study.analyse(shuffled.to_frame()).total) == dict(study.analyse(y).total)
+
+
+def test_an_index_is_a_number():
+    index = ap.Index(0.25, 0.2, 0.3)
+    assert float(index) == 0.25 and f"{index:.3f}" == "0.250"
+    assert index < 0.3 and index <= ap.Index(0.25, 0.1, 0.9) and 0.1 < index and np.float64(0.1) < index
+    assert index + index == 0.5 and 1 - index == 0.75 and index * 2 == 0.5 and sum([index, index]) == 0.5
+    estimate, low, high = index
+    assert (estimate, low, high) == index and pickle.loads(pickle.dumps(index)) == index
+
+
+def test_warnings_are_of_the_line_that_asks():
+    for ask in (lambda: ap.analyse(two, UNIT, base_samples=65), lambda: ap.Study(two, UNIT, base_samples=65).run()):
+        with pytest.warns(ap.SensitivityWarning) as caught:
+            ask()
+        assert {warning.filename for warning in caught} == {__file__}

@@ -166,3 +166,26 @@ def test_problems_become_factors():
     assert abs(result.groups()["g"].estimate - 1) < 1e-6
     with pytest.raises(ap.StudyError, match="unif"):
         ap.from_salib({"names": ["a"], "bounds": [[0, 1]], "dists": ["cauchy"]})
+
+
+def test_only_one_output_is_analysed_at_a_time():
+    x = salib.sample.sobol.sample(PROBLEM, 64, seed=1)
+    y = ishigami(*x.T)
+    one = salib.analyze.sobol.analyze(PROBLEM, y[:, None], seed=1)
+    assert np.array_equal(one["ST"], salib.analyze.sobol.analyze(PROBLEM, y, seed=1)["ST"])
+    for several in (np.column_stack([y, y]), y[None], y.reshape(-1, 2, 1)):
+        with pytest.raises(ValueError):
+            salib.analyze.sobol.analyze(PROBLEM, several)
+
+
+def test_arguments_that_are_not_there_or_out_of_range_are_named():
+    with pytest.raises(ap.StudyError, match="names"):
+        salib.sample.sobol.sample({"num_vars": 1, "bounds": [[0, 1]]}, 8)
+    with pytest.raises(ap.StudyError, match="names"):
+        salib.analyze.sobol.analyze({"num_vars": 1}, np.arange(8))
+    g = salib.test_functions.Sobol_G.evaluate
+    for values, of in (([[0.5, 2]], {"a": [0, 1]}), ([0.5, 0.5], {"a": [0, 1]}), ([[0.5, 0.5]], {"a": [0]})):
+        with pytest.raises(ValueError):
+            g(np.array(values), **of)
+    with pytest.raises(ValueError):
+        g(np.array([[0.5, 0.5]]), a=[0, 1], alpha=0)

@@ -81,3 +81,8 @@ def test_errors_of_series_are_reported():
         ap.analyse(lambda x1, x2: {"y": np.zeros((3, 2))}, FACTORS, base_samples=64)
     with pytest.raises(ap.StudyError, match="rising order"):
         ap.analyse(waves, FACTORS, outputs={"wave": {"positions": T[::-1]}}, base_samples=64)
+
+
+def test_a_unit_of_the_axis_needs_positions():
+    with pytest.raises(ap.StudyError, match="positions"):
+        ap.Study(None, {"x": (0, 1)}, outputs={"w": {"axis": "time", "axis_unit": "s", "length": 3}})

@@ -17,6 +17,7 @@ from ._given import given_data
 from ._indices import Index, Indices, OutputResult, SeriesResult
 from ._result import Document, Result, load_result
 from ._study import Study, analyse
+from ._warnings import SensitivityWarning
 from .salib import from_problem as from_salib
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "OutputResult",
     "Result",
     "RunError",
+    "SensitivityWarning",
     "SeriesResult",
     "Study",
     "StudyError",

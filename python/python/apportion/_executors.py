@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import concurrent.futures
+import inspect
 import os
 import pickle
 import time
@@ -88,15 +89,21 @@ class Blocks:
             future = self.executor.submit(_evaluate, self.call, x)
         except RuntimeError as error:
             raise _Closed(f"it accepts no more work: {error}") from error
+        # Those of submitit have a result() without a timeout.
+        takes_timeout = "timeout" in inspect.signature(future.result).parameters
         while True:
             try:
-                return future.result(timeout=0.2)
+                if takes_timeout:
+                    return future.result(timeout=0.2)
+                if not future.done():
+                    time.sleep(0.2)
             except (concurrent.futures.TimeoutError, TimeoutError):
-                if future.done():
-                    return future.result()
-                if self.stop.is_set():
-                    future.cancel()
-                    raise RunError("interrupted") from None
+                pass
+            if future.done():
+                return future.result()
+            if self.stop.is_set():
+                future.cancel()
+                raise RunError("interrupted")
 
 
 def _evaluate(call: Any, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:

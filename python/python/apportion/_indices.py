@@ -12,12 +12,55 @@ import numpy as np
 _ROWS = 30
 
 
-class Index(NamedTuple):
-    """An index with the ends of its 95 % interval, NaN where there is none."""
-
+class _Bounds(NamedTuple):
     estimate: float
     low: float
     high: float
+
+
+class Index(_Bounds):
+    """An index with the ends of its 95 % interval, NaN where there is none. As a number it is the estimate."""
+
+    __slots__ = ()
+    # Numbers of NumPy leave the operation to this class.
+    __array_ufunc__ = None
+
+    def __float__(self) -> float:
+        return self.estimate
+
+    def __format__(self, spec: str) -> str:
+        return format(self.estimate, spec) if spec else str(self)
+
+    def __lt__(self, other: Any) -> bool:
+        return self.estimate < float(other)
+
+    def __le__(self, other: Any) -> bool:
+        return self.estimate <= float(other)
+
+    def __gt__(self, other: Any) -> bool:
+        return self.estimate > float(other)
+
+    def __ge__(self, other: Any) -> bool:
+        return self.estimate >= float(other)
+
+    def __add__(self, other: Any) -> float:  # type: ignore[override]
+        return self.estimate + float(other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> float:
+        return self.estimate - float(other)
+
+    def __rsub__(self, other: Any) -> float:
+        return float(other) - self.estimate
+
+    def __mul__(self, other: Any) -> float:  # type: ignore[override]
+        return self.estimate * float(other)
+
+    __rmul__ = __mul__  # type: ignore[assignment]
+
+    def __truediv__(self, other: Any) -> float:
+        return self.estimate / float(other)
 
     @classmethod
     def of(cls, record: Mapping[str, Any] | None) -> "Index":

@@ -97,6 +97,8 @@ def stated_outputs(outputs: Mapping[str, Any], lengths: Mapping[str, int | None]
             continue
         of = {"unit": of} if isinstance(of, str) else dict(of)
         positions = of.pop("positions", None)
+        if positions is None and "axis_unit" in of:
+            raise StudyError(f"the output {name} has an axis_unit: state its positions, all or the first one and the step")
         of |= {} if positions is None else {"positions": np.asarray(positions, dtype=float).tolist()}
         stated[name] = {**of, "length": lengths[name]}
     return stated

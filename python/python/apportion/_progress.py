@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import sys
 import time
-import warnings
 from collections.abc import Callable
 from typing import Any
+
+from ._warnings import warn
 
 
 def say(line: str) -> None:
     if line.startswith("warning: "):
-        warnings.warn(line.removeprefix("warning: "), stacklevel=4)
+        warn(line.removeprefix("warning: "))
     else:
         print(line, file=sys.stderr)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
@@ -32,7 +31,8 @@ from ._keys import (
 from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
-from ._tables import named, numbers, placed, series_name
+from ._tables import in_order, named, numbers, placed, series_name
+from ._warnings import warn
 
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
@@ -174,12 +174,8 @@ class Study:
         self._tried: dict[bytes, np.ndarray | str] | None = None
 
     def _parse(self) -> None:
-        table = {key: value for key, value in self._table.items() if value != []}
-        self._made_from: tuple[str, str, list[str]] = (_toml.dumps(table), f"{self._table['name']}.toml", [])
-        try:
-            self._study = _engine.Study.parse(*self._made_from)
-        except StudyError as error:
-            raise StudyError(error.problem) from None
+        self._made_from = _text_of(self._table)
+        self._study = _parsed(self._made_from)
 
     def __getstate__(self) -> dict[str, Any]:
         return {key: value for key, value in vars(self).items() if key != "_study"}
@@ -250,6 +246,7 @@ class Study:
             raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
         # The names of the outputs are unknown.
         is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
+        outputs = in_order(outputs)
         columns = named(outputs, "the outputs have")
         if columns is None:
             y = numbers(outputs, "the outputs are")
@@ -263,10 +260,11 @@ class Study:
             columns = dict(zip(names, y.T))
         else:
             columns = self._split(columns)
+        study = self._study
         if is_unnamed and set(columns) != set(self.outputs):
-            self._table["outputs"] = list(columns)
-            self._parse()
-        return _with_warnings(Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come")))))
+            study = _parsed(_text_of({**self._table, "outputs": list(columns)}))
+        names = [name for name, _ in study.outputs]
+        return _with_warnings(Result(study.analyse(np.column_stack(placed(columns, names, "the outputs come")))))
 
     def _split(self, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """The columns of the engine: those of series one by one."""
@@ -301,7 +299,7 @@ class Study:
             values, failed = self._call.evaluate(points)
         if failed:
             rows = len({row for row, _ in failed})
-            warnings.warn(f"{rows} of {len(points)} rows failed: {failed[0][1]}", stacklevel=2)
+            warn(f"{rows} of {len(points)} rows failed: {failed[0][1]}")
         return values
 
     def run(
@@ -447,6 +445,18 @@ class Study:
         self._parse()
 
 
+def _text_of(table: Mapping[str, Any]) -> tuple[str, str, list[str]]:
+    """The study file of a table, its name, and no changes of it."""
+    return _toml.dumps({key: value for key, value in table.items() if value != []}), f"{table['name']}.toml", []
+
+
+def _parsed(made_from: tuple[str, str, list[str]]) -> _engine.Study:
+    try:
+        return _engine.Study.parse(*made_from)
+    except StudyError as error:
+        raise StudyError(error.problem) from None
+
+
 def _with_warnings(result: Result) -> Result:
     """The result, with every warning of it warned of; a `RunError` if no output has an index."""
     records = result.to_dict()["outputs"]
@@ -457,7 +467,7 @@ def _with_warnings(result: Result) -> Result:
         error.result = result
         raise error
     for warning in dict.fromkeys(result.warnings):
-        warnings.warn(warning, stacklevel=3)
+        warn(warning)
     return result
 
 

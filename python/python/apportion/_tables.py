@@ -62,6 +62,17 @@ def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str
     return {text: numbers(data[name], f"{what} in the column {text!r}", error) for text, name in zip(texts, names)}
 
 
+def in_order(data: Any) -> Any:
+    """Series and frames of pandas by their index, if it numbers the rows in another order; `data` itself otherwise."""
+    index = getattr(data, "index", None)
+    if not hasattr(data, "sort_index") or getattr(index, "dtype", None) != np.int64:
+        return data
+    places = np.asarray(index)
+    if np.array_equal(places, np.arange(len(places))) or not np.array_equal(np.sort(places), np.arange(len(places))):
+        return data
+    return data.sort_index()
+
+
 def series_name(data: Any) -> str | None:
     """The name of a series of pandas or polars."""
     name = getattr(data, "name", None) if hasattr(data, "to_frame") and not hasattr(data, "columns") else None

@@ -17,8 +17,10 @@ Seed = int | np.random.Generator | None
 
 def from_problem(problem: Mapping[str, Any]) -> dict[str, Factor]:
     """The factors of a problem of SALib: `names`, `bounds`, and perhaps `dists` and `groups`."""
-    names = list(problem["names"])
-    bounds = list(problem["bounds"])
+    for key in ("names", "bounds"):
+        if key not in problem:
+            raise StudyError(f"the problem has no {key!r}")
+    names, bounds = list(problem["names"]), list(problem["bounds"])
     dists = list(problem.get("dists") or ["unif"] * len(names))
     groups = list(problem.get("groups") or [None] * len(names))
     if not len(names) == len(bounds) == len(dists) == len(groups):
@@ -53,6 +55,8 @@ def _factor(dist: str, bound: list[float], group: str | None) -> Factor:
 
 def members_of(problem: Mapping[str, Any]) -> dict[str, list[int]]:
     """What has indices, factors or groups in SALib's order, with the columns of each."""
+    if "names" not in problem:
+        raise StudyError("the problem has no 'names'")
     groups = list(problem.get("groups") or problem["names"])
     return {str(member): [k for k, group in enumerate(groups) if group == member] for member in dict.fromkeys(groups)}
 

@@ -66,7 +66,10 @@ def analyze(
     z, rng = confidence(conf_level), generator(seed)
     members = list(members_of(problem))
     d = len(members)
-    y = numbers(Y, "the outputs are").ravel()
+    y = numbers(Y, "the outputs are")
+    if y.ndim > 2 or y.ndim == 2 and y.shape[1] != 1:
+        raise _engine.StudyError(f"outputs of shape {y.shape}: expected (rows,), one output at a time")
+    y = y.ravel()
     step = (2 if calc_second_order else 1) * d + 2
     if X is None and (y.size < 2 * step or y.size % step):
         raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")

@@ -6,11 +6,18 @@ from typing import Any
 
 import numpy as np
 
+from ..._engine import StudyError
+
 _A = (0, 1, 4.5, 9, 99, 99, 99, 99)
 
 
 def evaluate(values: np.ndarray, a: Any = None, delta: Any = 0.0, alpha: Any = 1.0) -> np.ndarray:
     """The outputs, (rows,), of points between 0 and 1, (rows, factors); a factor with a small `a` has much effect."""
+    values = np.asarray(values, dtype=float)
+    if values.ndim != 2 or not ((values >= 0) & (values <= 1)).all():
+        raise StudyError("expected points between 0 and 1, (rows, factors)")
     a, alpha = np.asarray(_A if a is None else a, dtype=float), np.asarray(1.0 if alpha is None else alpha)
+    if a.shape != values.shape[1:] or (alpha <= 0).any():
+        raise StudyError(f"expected {values.shape[1]} values of a, and alpha above 0")
     shifted = (values + (0.0 if delta is None else delta)) % 1
     return np.prod(((1 + alpha) * np.abs(2 * shifted - 1) ** alpha + a) / (1 + a), axis=1)
