@@ -255,14 +255,11 @@ impl Study {
         let has_points = self.target.grows() || design.points_per_replicate() >= MIN_POINTS as u64;
         let DesignSettings { sampler, replicates, .. } = *design.settings();
         let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
-        fits && match self.automatic_values(design) {
-            None => true,
-            Some((values, true)) => values <= MAX_AUTOMATIC_VALUES,
-            Some((values, false)) => {
-                let has_size = self.target.accuracy.is_some() || !self.target.grows();
-                values <= MAX_AUTOMATIC_VALUES && has_size
-            }
-        }
+        let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto && self.low_fidelities.is_empty();
+        let model = self.model();
+        let has_size = self.target.accuracy.is_some() || !self.target.grows() || model.concurrency().is_some();
+        let values = design.rows().saturating_mul(model.outputs().len() as u64);
+        fits && (!is_automatic || has_size && values <= MAX_AUTOMATIC_VALUES)
     }
 
     /// Returns the bytes that each thread of a run takes: the columns of the factors in a block (unit cube and SI, A and
@@ -270,15 +267,6 @@ impl Study {
     pub fn bytes_per_thread(&self) -> u64 {
         let outputs = self.model().outputs().len() as u64;
         (2 * self.design.columns() as u64 + self.design.rows_per_point() * (outputs + 1)) * BLOCK * 8
-    }
-
-    /// Returns the rows times outputs of a run of `design`, and whether the model is a program, if these determine
-    /// whether surrogates are fitted.
-    fn automatic_values(&self, design: &Design) -> Option<(u64, bool)> {
-        let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
-        let model = self.model();
-        let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        (is_automatic && self.low_fidelities.is_empty()).then(|| (values, model.concurrency().is_some()))
     }
 
     /// Returns whether the estimates need the outputs of every run, not only their sums.
