@@ -36,6 +36,9 @@ impl Stop {
     }
 }
 
+/// Values that a call of the function should return at least: it takes as long as some thousand of them.
+const VALUES_PER_CALL: usize = 1 << 14;
+
 /// Values and failures of a block of rows: an array of (rows, outputs), and (row, reason) of every row that failed.
 type Answer = (Vec<f64>, Vec<(usize, String)>);
 
@@ -46,6 +49,8 @@ pub struct Ended;
 /// A block of rows that waits for its answer.
 pub struct Request {
     columns: Vec<Vec<f64>>,
+    /// Room for the values of the answer.
+    values: Vec<f64>,
     answer: SyncSender<Result<Answer, Ended>>,
 }
 
@@ -80,19 +85,24 @@ impl PythonModel {
     }
 
     /// What the function answers to `columns`.
-    fn call(&self, py: Python<'_>, columns: &[Vec<f64>]) -> PyResult<Answer> {
+    fn call(&self, py: Python<'_>, columns: &[Vec<f64>], mut into: Vec<f64>) -> PyResult<Answer> {
         let rows = columns.first().map_or(0, Vec::len);
         let array = PyArray2::from_vec2(py, columns)?;
         let answer = self.function.bind(py).call1((array,))?;
         let (values, failures): (PyReadonlyArray2<'_, f64>, Vec<(usize, String)>) = answer.extract()?;
         let shape = values.as_array().dim();
         assert_shape(shape, (rows, self.outputs.len()))?;
-        Ok((values.as_array().iter().copied().collect(), failures))
+        into.clear();
+        match values.as_slice() {
+            Ok(values) => into.extend_from_slice(values),
+            Err(_) => into.extend(values.as_array().iter()),
+        }
+        Ok((into, failures))
     }
 
     /// Answers `request`, in the thread that started the run.
     pub fn serve(&self, py: Python<'_>, request: Request) -> PyResult<()> {
-        let (answer, outcome) = match self.call(py, &request.columns) {
+        let (answer, outcome) = match self.call(py, &request.columns, request.values) {
             Ok(answer) => (Ok(answer), Ok(())),
             Err(error) => (Err(Ended), Err(error)),
         };
@@ -136,29 +146,36 @@ impl Model for PythonModel {
         true
     }
 
+    fn rows_per_call(&self) -> usize {
+        VALUES_PER_CALL / self.outputs.len().max(1)
+    }
+
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-        Box::new(PythonWorker { model: self, context })
+        Box::new(PythonWorker { model: self, context, values: Vec::new() })
     }
 }
 
 struct PythonWorker<'a> {
     model: &'a PythonModel,
     context: &'a RunContext<'a>,
+    /// The values of the last answer.
+    values: Vec<f64>,
 }
 
 impl PythonWorker<'_> {
-    fn answer(&self, columns: Vec<Vec<f64>>) -> Result<Answer, Ended> {
+    fn answer(&mut self, columns: Vec<Vec<f64>>) -> Result<Answer, Ended> {
         if self.context.is_stopped() {
             return Err(Ended);
         }
+        let values = std::mem::take(&mut self.values);
         match &self.model.caller {
             Caller::There(sender) => {
                 let (answer, answered) = sync_channel(1);
-                sender.send(Event::Request(Request { columns, answer })).map_err(|_| Ended)?;
+                sender.send(Event::Request(Request { columns, values, answer })).map_err(|_| Ended)?;
                 answered.recv().unwrap_or(Err(Ended))
             }
             Caller::Here { first_error, stop, .. } => Python::attach(|py| {
-                self.model.call(py, &columns).map_err(|error| {
+                self.model.call(py, &columns, values).map_err(|error| {
                     stop.set();
                     first_error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                     Ended
@@ -176,15 +193,15 @@ impl Worker for PythonWorker<'_> {
             return batch.give_up(RowFailure::interrupted());
         };
         let outputs = &self.model.outputs;
-        for (row, values) in values.chunks_exact(outputs.len()).enumerate() {
-            for (output, value) in values.iter().enumerate() {
-                batch.set(row, output, outputs[output].unit.to_si(*value));
-            }
+        batch.set_rows(0, &values, outputs.len());
+        for (place, Output { unit, .. }) in outputs.iter().enumerate().filter(|(_, output)| !output.unit.is_si()) {
+            batch.column_mut(place).iter_mut().for_each(|value| *value = unit.to_si(*value));
         }
         for (row, reason) in failures {
             if row < batch.rows() {
                 batch.fail_row(row, &RowFailure::new(&reason));
             }
         }
+        self.values = values;
     }
 }

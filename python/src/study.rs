@@ -251,7 +251,7 @@ impl Study {
                 }
             }
             batch.settle();
-            store.insert(&RowBlock::from_batches(replicate, 0, std::slice::from_ref(&batch)));
+            store.insert(RowBlock::from_batches(replicate, 0, std::slice::from_ref(&batch)));
         }
         py.detach(|| {
             let result = study.runner().store(&store).run().map_err(|error| run_error(&error))?;

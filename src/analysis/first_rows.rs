@@ -29,7 +29,7 @@ impl FirstRows {
     }
 
     /// Returns the outputs of the same rows, NaN where a run failed; `samples` are those that each replicate has kept.
-    pub fn outputs(&self, samples: &[Vec<f64>]) -> Vec<f64> {
+    pub fn outputs(&self, samples: &[&Vec<f64>]) -> Vec<f64> {
         let mut all = Vec::new();
         for (columns, outputs) in self.replicates.iter().zip(samples) {
             let rows = 2 * columns.first().map_or(0, Vec::len);
@@ -40,7 +40,7 @@ impl FirstRows {
 
     /// Returns the points of the unit cube of at most `most` of the rows A, the first of every replicate, with their
     /// outputs; failed runs are left out.
-    pub fn first(&self, most: usize, samples: &[Vec<f64>]) -> Vec<(Vec<f64>, f64)> {
+    pub fn first(&self, most: usize, samples: &[&Vec<f64>]) -> Vec<(Vec<f64>, f64)> {
         let each = (most / self.replicates.len()).max(1);
         let mut rows = Vec::new();
         for (columns, outputs) in self.replicates.iter().zip(samples) {

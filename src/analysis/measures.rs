@@ -40,7 +40,7 @@ impl MeasuredRows {
     ///
     /// Points of nets and Latin hypercubes are more even than independent draws: permutations overestimate the effect
     /// of chance, so that only rows of random points have p-values. Intervals are a little wide on nets, but valid.
-    pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
+    pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[&Vec<f64>]) -> Option<RunMeasures> {
         let all = self.rows.outputs(samples);
         let outputs = with_output(&all, &all);
         if outputs.len() < MIN_ROWS {

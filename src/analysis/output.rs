@@ -19,8 +19,8 @@ use crate::study::Study;
 use crate::uncertainty::{Estimate, KeptPoints, OutputMoments};
 use apportion_base::quantity::Unit;
 
-/// Number of outputs above which none has a scatter plot: its points are ten times everything else in a result.
-const MAX_SCATTERED: usize = 100;
+/// Number of outputs above which none has a scatter plot or stages: they are ten times everything else in a result.
+pub(super) const MAX_PICTURED: usize = 100;
 
 /// The first rows of the design, for results that need individual values.
 pub(super) struct OutputRows {
@@ -40,12 +40,12 @@ pub(super) fn output_result(
     rows: &OutputRows,
 ) -> OutputResult {
     let (study, totals, unit) = (run.study, &counts.outputs[number], &output.unit);
-    let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
+    let parts: Vec<&MomentParts> = run.replicates.iter().map(|t| &t.outputs[number].moments).collect();
     let kept = outputs_kept(run.replicates, number);
     let surrogate = corrected.of_run.get(number).and_then(Option::as_ref);
     let (points, unread) = (KeptPoints::all(run.design, &kept), study.unread(run.model, number));
     let options = IntervalOptions { points, unread: &unread, surrogate, ..interval_options(study) };
-    let used = merged(&parts.iter().map(MomentParts::sum).collect::<Vec<_>>());
+    let used = merged(&parts.iter().map(|of| of.sum()).collect::<Vec<_>>());
     let layout = study.layout();
     let share = totals.runs_failed as f64 / run.design.rows() as f64;
     let mut indices = match (share > study.analysis.max_failed, &corrected.plain) {
@@ -60,10 +60,12 @@ pub(super) fn output_result(
         Some(moments) => (Some(moments.mean), Some(moments.variance)),
         None => moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count()),
     };
-    let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
-    let warnings = output_warnings(run, number, counts, &used, indices.as_mut().ok(), corrected, &samples);
+    let samples: Vec<&Vec<f64>> = run.replicates.iter().map(|totals| &totals.outputs[number].sample).collect();
+    let mut sorted: Vec<f64> = samples.iter().copied().flatten().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let warnings = output_warnings(run, number, counts, &used, indices.as_mut().ok(), corrected, (&samples, &sorted));
     let mut convergence = Vec::new();
-    if let (Ok(indices), true) = (&indices, study.analysis.convergence && corrected.plain.is_none()) {
+    if let (Ok(indices), true) = (&indices, has_stages(run) && corrected.plain.is_none()) {
         let stages = stages(&parts, &layout, &options, indices, &|points| {
             corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref()
         });
@@ -92,12 +94,17 @@ pub(super) fn output_result(
     }
     if let Some(rows) = &rows.scatter {
         let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
-        result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
-        if !is_item && run.model.outputs().len() <= MAX_SCATTERED {
+        result.distribution = distribution_record(&totals.values, &sorted, unit, is_item);
+        if !is_item && run.model.outputs().len() <= MAX_PICTURED {
             result.scatter = scatter(study, &result, rows, &samples, unit);
         }
     }
     result
+}
+
+/// Returns whether the indices at the stages of `run` are computed.
+pub(super) fn has_stages(run: &FinishedRun<'_>) -> bool {
+    run.study.analysis.convergence && run.model.outputs().len() <= MAX_PICTURED
 }
 
 /// Returns the warnings on output number `number`, and withdraws what its `indices` do not hold.
@@ -108,7 +115,7 @@ fn output_warnings(
     used: &Moments,
     indices: Option<&mut OutputIndices>,
     corrected: &Corrections,
-    samples: &[Vec<f64>],
+    (samples, sorted): (&[&Vec<f64>], &[f64]),
 ) -> Vec<Warning> {
     let (study, totals) = (run.study, &counts.outputs[number]);
     let mut warnings = warnings::of_runs(run, totals.runs_failed, used);
@@ -124,7 +131,7 @@ fn output_warnings(
     }
     // All rows of a table are checked when it is read.
     if !study.subject.is_external() {
-        warnings.extend(unlikely::of_samples(run.design, &run.model.outputs()[number], samples));
+        warnings.extend(unlikely::of_samples(run.design, &run.model.outputs()[number], samples, sorted));
     }
     warnings
 }
@@ -135,7 +142,7 @@ fn scatter(
     study: &Study,
     result: &OutputResult,
     rows: &FirstRows,
-    samples: &[Vec<f64>],
+    samples: &[&Vec<f64>],
     unit: &Unit,
 ) -> Option<ScatterRecord> {
     let is_of_factors = study.analysis.indices_of == IndicesOf::Factors;
@@ -172,16 +179,15 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
     }
 }
 
-/// Computes moments and range from all values of the rows A and B, the rest from the kept ones. `None` without values,
+/// Computes moments and range from all values of the rows A and B, the rest from the kept ones, which are `sorted`. `None` without values,
 /// and if a number exceeds double precision in the unit. A value of a series has neither histogram nor density.
 fn distribution_record(
     values: &CentralMoments,
-    samples: &[Vec<f64>],
+    sorted: &[f64],
     unit: &Unit,
     is_item: bool,
 ) -> Option<OutputDistribution> {
-    let kept: Vec<f64> = samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
-    let mut sample = OutputDistribution::from_values(&kept, unit)?;
+    let mut sample = OutputDistribution::from_values(sorted, unit)?;
     let (min, max) = values.range()?;
     (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
     let n = values.count();

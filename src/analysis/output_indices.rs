@@ -22,8 +22,8 @@ pub struct IntervalOptions<'a> {
     /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without these
     /// the methods are approximated by batches.
     pub points: Option<KeptPoints<'a>>,
-    /// Whether the probabilities of being first are computed: they take most of the time of a small design.
-    pub ranks: bool,
+    /// Number of draws for the probabilities of being first, which take most of the time of a small design; 0 for none.
+    pub draws: usize,
     /// Whether each effect, by its position, has only factors that cannot change the output; empty if none is known to.
     pub unread: &'a [bool],
     /// The surrogate estimates of the outputs, which replace the plain estimates where they are more accurate.
@@ -91,7 +91,7 @@ impl OutputIndices {
 }
 
 /// Computes mean and variance of one output from the parts of its replicates; `None` without any base point.
-pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
+pub fn output_moments(replicates: &[&MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let list = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
     let influences = Influences::from_moments(replicates, &list)?;
     let judged = match options.by_points() {
@@ -120,8 +120,8 @@ fn more_accurate(plain: &Judgement, corrected: &Judgement) -> Estimate {
     if corrected.error.error < plain.error.error { corrected.estimate } else { plain.estimate }
 }
 
-fn merged_parts(replicates: &[MomentParts]) -> Moments {
-    merged(&replicates.iter().map(MomentParts::sum).collect::<Vec<Moments>>())
+fn merged_parts(replicates: &[&MomentParts]) -> Moments {
+    merged(&replicates.iter().map(|of| of.sum()).collect::<Vec<Moments>>())
 }
 
 /// Computes the indices of one output from the parts of its replicates.
@@ -129,7 +129,7 @@ fn merged_parts(replicates: &[MomentParts]) -> Moments {
 /// # Errors
 /// [`Undefined`] if the replicates together give no indices.
 pub fn output_indices(
-    replicates: &[MomentParts],
+    replicates: &[&MomentParts],
     layout: &Layout,
     options: &IntervalOptions<'_>,
 ) -> Result<OutputIndices, Undefined> {
@@ -167,7 +167,7 @@ pub(super) fn of_quantities(
     plain: Option<Vec<IndexPair<Estimate>>>,
     options: &IntervalOptions<'_>,
 ) -> OutputIndices {
-    let probabilities = if options.ranks { probabilities_first(&judged, options.seed) } else { None };
+    let probabilities = probabilities_first(&judged, options);
     let mut probabilities = probabilities.into_iter().flatten();
     let mut redrawn = judged.redrawn.iter();
     let mut effects = Vec::with_capacity(judged.effects.len());
@@ -204,7 +204,7 @@ pub(super) fn of_quantities(
 
 /// Computes all quantities with the errors that the plain rows show, and bounds on what they cannot show.
 fn judged(
-    replicates: &[MomentParts],
+    replicates: &[&MomentParts],
     all: &Moments,
     layout: &Layout,
     options: &IntervalOptions<'_>,
@@ -259,10 +259,10 @@ fn judged(
 
 /// Returns for every factor the probability that its Shapley effect, if there are any, or else its total index, is the
 /// largest; the noise is no factor that could be.
-fn probabilities_first(judged: &Quantities<Judgement>, seed: u64) -> Option<Vec<f64>> {
+fn probabilities_first(judged: &Quantities<Judgement>, options: &IntervalOptions<'_>) -> Option<Vec<f64>> {
     let alone = if judged.redrawn.is_empty() { &judged.effects } else { &judged.redrawn };
     let factors = alone.iter().zip(&judged.effects).filter(|(_, effect)| matches!(effect.effect, Effect::Factor(_)));
     let ranked: Vec<&Judgement> =
         factors.map(|(alone, effect)| effect.shapley.as_ref().unwrap_or(&alone.total)).collect();
-    probability_first(&ranked, seed)
+    probability_first(&ranked, options.seed, options.draws)
 }

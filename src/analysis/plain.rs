@@ -65,7 +65,8 @@ impl PlainOutputs {
     ) -> Result<OutputIndices, Undefined> {
         let fit = self.fits[number].as_ref().map_err(|undefined| *undefined)?;
         let quantities = self.rows.quantities(fit, &study.layout(), &study.unread(model, number));
-        let options = IntervalOptions { ranks, ..interval_options(study) };
+        let options = interval_options(study);
+        let options = IntervalOptions { draws: if ranks { options.draws } else { 0 }, ..options };
         Ok(OutputIndices { surrogate: Some(fit.surrogate_use()), ..of_quantities(quantities, None, &options) })
     }
 

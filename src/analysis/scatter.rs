@@ -35,7 +35,7 @@ pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
 pub(super) fn scatter_record(
     rows: &FirstRows,
     space: &Space,
-    (unit, samples): (&Unit, &[Vec<f64>]),
+    (unit, samples): (&Unit, &[&Vec<f64>]),
     indices: &[Named<EffectEstimates>],
 ) -> Option<ScatterRecord> {
     let factors = space.factors();

@@ -44,28 +44,28 @@ pub(super) fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
 /// replicate is a run of its own. `surrogate` returns the surrogate estimates for a number of first base points of each
 /// replicate. Stages without indices are left out.
 pub(super) fn stages<'s>(
-    replicates: &[MomentParts],
+    replicates: &[&MomentParts],
     layout: &Layout,
     options: &IntervalOptions<'_>,
     last: &OutputIndices,
     surrogate: &dyn Fn(u64) -> Option<&'s SurrogateEstimates>,
 ) -> Vec<Stage> {
     let mut stages = Vec::new();
-    for size in sizes_of_stages(&replicates.iter().collect::<Vec<_>>()) {
+    for size in sizes_of_stages(replicates) {
         let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
         let base_samples = prefix.iter().map(MomentParts::points).sum();
         let longest = prefix.iter().map(MomentParts::points).max().unwrap_or(0);
         let options = IntervalOptions {
             points: options.points.map(|points| points.prefix(longest)),
             surrogate: surrogate(longest),
-            ranks: false,
+            draws: 0,
             ..*options
         };
-        if let Ok(indices) = output_indices(&prefix, layout, &options) {
+        if let Ok(indices) = output_indices(&prefix.iter().collect::<Vec<_>>(), layout, &options) {
             stages.push(Stage { base_samples, indices });
         }
     }
-    let base_samples = replicates.iter().map(MomentParts::points).sum();
+    let base_samples = replicates.iter().map(|of| of.points()).sum();
     stages.push(Stage { base_samples, indices: last.clone() });
     stages
 }

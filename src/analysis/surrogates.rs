@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::finished_run::{FinishedRun, LowFidelityTotals, outputs_kept};
+use super::output::{MAX_PICTURED, has_stages};
 use super::output_indices::IntervalOptions;
 use super::plain::PlainOutputs;
 use super::rare_levels::rare_levels;
@@ -22,7 +23,9 @@ use crate::surrogate::{CrossFitted, families};
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    IntervalOptions { method, threshold, seed, resamples, points: None, ranks: true, unread: &[], surrogate: None }
+    // Their own error is below 0.008, or 0.016 where there is one for each factor of very many outputs.
+    let draws = if study.model().outputs().len() > MAX_PICTURED { 1024 } else { 4096 };
+    IntervalOptions { method, threshold, seed, resamples, points: None, draws, unread: &[], surrogate: None }
 }
 
 /// Computes the surrogate estimates of every output of the runs of `design`, the first of `replicates`, if the study
@@ -97,7 +100,7 @@ impl Corrections {
         let known = run.surrogates.map(<[_]>::to_vec);
         let of_run = known.unwrap_or_else(|| surrogates(study, design, replicates, low_fidelity, &[]));
         let mut stages = BTreeMap::new();
-        if study.analysis.convergence && of_run.iter().any(Option::is_some) {
+        if has_stages(run) && of_run.iter().any(Option::is_some) {
             // All outputs have the same parts.
             let parts: Vec<&MomentParts> =
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();

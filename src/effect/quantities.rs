@@ -131,7 +131,7 @@ impl<T> Quantities<T> {
 
     /// Returns all quantities in the order of [`map`](Self::map).
     pub fn into_list(self) -> Vec<T> {
-        let mut list = Vec::new();
+        let mut list = Vec::with_capacity(8 * self.effects.len() + 2);
         self.map(|_, quantity| list.push(quantity));
         list
     }

@@ -30,7 +30,7 @@ pub use estimator::Estimator;
 pub(crate) use indices::Indices;
 pub use moments::{BlockOutputs, Moments};
 pub use of_one_index::{FirstOrder, Total};
-pub(crate) use parts::{MomentParts, merged, part_length};
+pub(crate) use parts::{MomentParts, PartShape, merged};
 pub(crate) use point_outputs::PointOutputs;
 pub(crate) use products::{ProductWork, Products};
 pub(crate) use quantities::quantities;

@@ -5,11 +5,40 @@ use super::Moments;
 /// Maximum number of parts that are kept.
 pub const MAX_PARTS: usize = 64;
 
+/// Number of outputs, series value by value, above which parts are coarse, and their maximum number then.
+const FINE_OUTPUTS: usize = 256;
+const MAX_COARSE_PARTS: usize = 16;
+
+/// Minimum length of a coarse part: its sums are as many numbers as the outputs of about fourteen base points.
+const COARSE_LENGTH: u64 = 8;
+
 /// Maximum number of numbers in the parts of one output: with very many factors there are fewer parts.
 const MAX_NUMBERS: usize = 1 << 19;
 
-/// Number of outputs, series value by value, above which parts have at least eight points.
-const OUTPUTS_OF_SHORT_PARTS: usize = 256;
+/// The division of base points into parts.
+#[derive(Debug, Clone, Copy)]
+pub struct PartShape {
+    /// Base points in a part that is complete, a power of two.
+    pub length: u64,
+    /// Maximum number of parts.
+    most: usize,
+}
+
+impl PartShape {
+    /// Returns the shape in which block number `block` (of `size` base points) is summed, for a model with `outputs`
+    /// outputs: that of the shortest run that contains the block. Later blocks, which only long runs reach, need no parts
+    /// at all.
+    pub fn of_block(block: u64, size: u64, outputs: usize) -> Self {
+        let points = (block + 1).next_power_of_two() * size;
+        if outputs <= FINE_OUTPUTS {
+            let length = (points / MAX_PARTS as u64 / 2).clamp(1, size);
+            return Self { length, most: MAX_PARTS };
+        }
+        let length = (points / MAX_COARSE_PARTS as u64).min(size);
+        // A run that ends in the first block has parts too.
+        Self { length: if block == 0 { COARSE_LENGTH } else { length }, most: MAX_COARSE_PARTS }
+    }
+}
 
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
@@ -20,16 +49,18 @@ const OUTPUTS_OF_SHORT_PARTS: usize = 256;
 pub struct MomentParts {
     /// Base points in a part that is complete.
     length: u64,
+    /// Maximum number of parts.
+    most: usize,
     /// Total number of base points.
     points: u64,
     parts: Vec<Moments>,
 }
 
 impl MomentParts {
-    /// Creates parts of `length` base points each, a power of two, of `points` in all.
-    pub fn new(length: u64, points: u64, parts: Vec<Moments>) -> Self {
+    /// Creates parts of this shape, of `points` base points in all.
+    pub fn new(PartShape { length, most }: PartShape, points: u64, parts: Vec<Moments>) -> Self {
         debug_assert!(length.is_power_of_two() && points.div_ceil(length) == parts.len() as u64);
-        let mut new = Self { length, points, parts };
+        let mut new = Self { length, most, points, parts };
         new.shrink();
         new
     }
@@ -49,16 +80,15 @@ impl MomentParts {
     pub fn prefix(&self, parts: usize) -> Self {
         let parts = parts.min(self.parts.len());
         let points = self.points.min(parts as u64 * self.length);
-        Self { length: self.length, points, parts: self.parts[..parts].to_vec() }
+        Self { points, parts: self.parts[..parts].to_vec(), ..*self }
     }
 
     /// Appends the base points that follow. All parts of `self` must be complete.
-    pub fn append(&mut self, following: &Self) {
+    pub fn append(&mut self, mut following: Self) {
         if self.parts.is_empty() {
-            self.clone_from(following);
+            *self = following;
             return;
         }
-        let mut following = following.clone();
         let length = self.length.max(following.length);
         self.lengthen(length);
         following.lengthen(length);
@@ -86,12 +116,18 @@ impl MomentParts {
 
     fn most(&self) -> usize {
         let numbers = self.parts.first().map_or(1, Moments::numbers);
-        let most = (MAX_NUMBERS / numbers.max(1)).clamp(4, MAX_PARTS);
+        let most = (MAX_NUMBERS / numbers.max(1)).clamp(4, self.most);
         1 << most.ilog2()
     }
 
     fn pair_up(&mut self) {
-        self.parts = self.parts.chunks(2).map(merged).collect();
+        let mut parts = std::mem::take(&mut self.parts).into_iter();
+        while let Some(mut pair) = parts.next() {
+            if let Some(second) = parts.next() {
+                pair.merge(&second);
+            }
+            self.parts.push(pair);
+        }
         self.length *= 2;
     }
 }
@@ -109,16 +145,6 @@ pub fn merged(parts: &[Moments]) -> Moments {
             sum
         }
     }
-}
-
-/// Returns the length of the parts in which block number `block` (of `size` base points) is summed, for a model with
-/// `outputs` outputs: that of the parts of the shortest run that contains the block. Later blocks, which only long runs
-/// reach, need no parts at all. The sums of a part are as many numbers as the outputs of about fourteen base points:
-/// with many outputs, a part has at least eight points, so that sums do not need many times the memory of the outputs.
-pub fn part_length(block: u64, size: u64, outputs: usize) -> u64 {
-    let points = (block + 1).next_power_of_two() * size;
-    let least = if outputs > OUTPUTS_OF_SHORT_PARTS { 8 } else { 1 };
-    (points / MAX_PARTS as u64 / 2).clamp(least, size)
 }
 
 #[cfg(test)]

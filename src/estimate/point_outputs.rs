@@ -27,8 +27,8 @@ impl PointOutputs {
     }
 
     /// Appends the base points that follow.
-    pub fn append(&mut self, following: &Self) {
-        self.blocks.extend_from_slice(&following.blocks);
+    pub fn append(&mut self, following: Self) {
+        self.blocks.extend(following.blocks);
         self.points += following.points;
     }
 
@@ -53,7 +53,7 @@ impl PointOutputs {
             } else {
                 Self::of_block(&columns)
             };
-            prefix.append(&of_block);
+            prefix.append(of_block);
         }
         prefix
     }

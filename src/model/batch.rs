@@ -1,6 +1,7 @@
 //! Outputs of blocks of rows, with their failures and validity flags.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Counts, Model};
@@ -54,11 +55,21 @@ impl fmt::Display for GiveUp {
     }
 }
 
+/// Number of outputs that are transposed at a time: a line of the cache in the table of rows, and few lines of columns.
+const TILE: usize = 8;
+
+/// Returns the outputs of each tile.
+fn tiles(outputs: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..outputs).step_by(TILE).map(move |first| first..(first + TILE).min(outputs))
+}
+
 /// Outputs of a block of rows: one column per output, one entry per row.
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
     rows: usize,
-    columns: Vec<Vec<f64>>,
+    outputs: usize,
+    /// Column by column.
+    values: Vec<f64>,
     failures: Vec<(usize, usize, RowFailure)>,
     flags: Vec<u64>,
     counts: Counts,
@@ -69,7 +80,7 @@ impl Batch {
     /// Creates an empty batch for the outputs, validity flags and counters of `model`.
     pub fn new(model: &dyn Model) -> Self {
         Self {
-            columns: vec![Vec::new(); model.outputs().len()],
+            outputs: model.outputs().len(),
             flags: vec![0; model.flags().len()],
             counts: Counts::new(model.counters()),
             ..Self::default()
@@ -79,10 +90,8 @@ impl Batch {
     /// Clears the batch and makes room for `rows` rows.
     pub fn reset(&mut self, rows: usize) {
         self.rows = rows;
-        for column in &mut self.columns {
-            column.clear();
-            column.resize(rows, f64::NAN);
-        }
+        self.values.clear();
+        self.values.resize(rows * self.outputs, f64::NAN);
         self.failures.clear();
         self.flags.fill(0);
         self.counts.clear();
@@ -96,28 +105,51 @@ impl Batch {
 
     /// Returns the number of outputs of every row.
     pub fn outputs(&self) -> usize {
-        self.columns.len()
+        self.outputs
     }
 
     /// Sets one value, in SI units.
     pub fn set(&mut self, row: usize, output: usize, value: f64) {
-        self.columns[output][row] = value;
+        self.column_mut(output)[row] = value;
     }
 
     /// Returns the column of one output, for models that fill it at once.
     pub fn column_mut(&mut self, output: usize) -> &mut [f64] {
-        &mut self.columns[output]
+        &mut self.values[output * self.rows..(output + 1) * self.rows]
+    }
+
+    /// Sets all outputs of the rows from `first` on, as many as `table` has: row k begins at place `k * stride` of it.
+    pub fn set_rows(&mut self, first: usize, table: &[f64], stride: usize) {
+        let rows = self.rows;
+        for (outputs, columns) in tiles(self.outputs).zip(self.values.chunks_mut((TILE * rows).max(1))) {
+            for (row, of_row) in table.chunks(stride.max(1)).enumerate() {
+                for (column, value) in columns.chunks_exact_mut(rows).zip(&of_row[outputs.clone()]) {
+                    column[first + row] = *value;
+                }
+            }
+        }
+    }
+
+    /// Writes all outputs of every row to `table`, row by row: row k to place `k * stride`.
+    pub(crate) fn write_rows(&self, table: &mut [f64], stride: usize) {
+        for (outputs, columns) in tiles(self.outputs).zip(self.values.chunks((TILE * self.rows).max(1))) {
+            for (row, of_row) in table.chunks_mut(stride.max(1)).take(self.rows).enumerate() {
+                for (column, value) in columns.chunks_exact(self.rows).zip(&mut of_row[outputs.clone()]) {
+                    *value = column[row];
+                }
+            }
+        }
     }
 
     /// Marks one output of a row as failed.
     pub fn fail(&mut self, row: usize, output: usize, failure: RowFailure) {
-        self.columns[output][row] = f64::NAN;
+        self.set(row, output, f64::NAN);
         self.failures.push((output, row, failure));
     }
 
     /// Marks all outputs of a row as failed.
     pub fn fail_row(&mut self, row: usize, failure: &RowFailure) {
-        for output in 0..self.columns.len() {
+        for output in 0..self.outputs {
             self.fail(row, output, failure.clone());
         }
     }
@@ -149,7 +181,7 @@ impl Batch {
         let unnamed = self.given_up.clone().map_or_else(RowFailure::not_finite, |give_up| give_up.reason);
         self.failures.sort_unstable();
         let named = self.failures.len();
-        for (output, column) in self.columns.iter().enumerate() {
+        for (output, column) in self.values.chunks_exact(self.rows.max(1)).enumerate() {
             // Without an early exit, many values are tested at a time.
             if column.iter().fold(true, |all, value| all & value.is_finite()) {
                 continue;
@@ -166,7 +198,7 @@ impl Batch {
 
     /// Returns the values of one output; NaN or infinite where it failed.
     pub fn column(&self, output: usize) -> &[f64] {
-        &self.columns[output]
+        &self.values[output * self.rows..(output + 1) * self.rows]
     }
 
     /// Returns all failures as (output, row, reason), in order once settled.
@@ -182,6 +214,16 @@ impl Batch {
     /// Returns the model's counters.
     pub fn counts(&self) -> &Counts {
         &self.counts
+    }
+
+    /// Takes as many rows as this batch has from `other`, from `first` on, with their failures, but no flags and counts.
+    pub(crate) fn copy_rows(&mut self, other: &Self, first: usize) {
+        let rows = first..first + self.rows;
+        for output in 0..self.outputs {
+            self.column_mut(output).copy_from_slice(&other.column(output)[rows.clone()]);
+        }
+        let failures = other.failures.iter().filter(|(_, row, _)| rows.contains(row));
+        self.failures.extend(failures.map(|(output, row, why)| (*output, row - first, why.clone())));
     }
 
     /// Adds flags and counts of rows of this batch that were evaluated earlier.

@@ -124,6 +124,12 @@ pub trait Model: Send + Sync {
         self.concurrency().is_some()
     }
 
+    /// Returns how many rows a call of a worker should have at least, if there are as many, because a call costs as much
+    /// as many rows.
+    fn rows_per_call(&self) -> usize {
+        1
+    }
+
     /// Returns whether an output may depend on a factor, both by index; `false` only if it certainly does not. Runs alone
     /// cannot show that an input has no effect.
     fn reads(&self, _output: usize, _factor: usize) -> bool {

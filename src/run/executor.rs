@@ -158,7 +158,7 @@ impl Execution<'_, '_> {
             let Reply { seconds, given_up, blocks } =
                 remote.receive(worker, self.executor.context, &range, rows.store.outputs())?;
             // Receive all outstanding replies, so that the next run begins with a worker that has nothing to send.
-            goes_on &= self.count(rows.keep(&blocks));
+            goes_on &= self.count(rows.keep(blocks));
             if let Some(give_up) = given_up {
                 self.tracker.end(RunError::GaveUp(give_up));
                 goes_on = false;

@@ -11,10 +11,11 @@ use rayon::prelude::*;
 
 use super::failures::RowPosition;
 use super::scratch::{BlockPlace, Scratch};
+use super::totals::sampled_points;
 use super::tracker::Tracker;
-use super::{BLOCK, FailurePolicy, GrowingRun, RowBlock, RunError, SAMPLE, Totals, record};
+use super::{BLOCK, FailurePolicy, GrowingRun, RowBlock, RunError, Totals, record};
 use crate::design::BasePoints;
-use crate::estimate::part_length;
+use crate::estimate::PartShape;
 
 /// Turns the base points of a run into totals.
 pub(super) struct Fold<'f, 'a> {
@@ -55,7 +56,7 @@ impl<'a> Fold<'_, 'a> {
         let (left, right) =
             rayon::join(|| self.fold(range, blocks.start..middle), || self.fold(range, middle..blocks.end));
         let mut totals = left?;
-        totals.merge(&right?);
+        totals.merge(right?);
         Some(totals)
     }
 
@@ -89,10 +90,10 @@ impl<'a> Fold<'_, 'a> {
         points: Range<u64>,
     ) -> Result<Totals, RunError> {
         let count = (points.end - points.start) as usize;
-        let sampled = (SAMPLE / self.run.job.design.settings().replicates).max(1);
+        let sampled = sampled_points(self.run.job.model.outputs().len(), self.run.job.design.settings().replicates);
         let place = BlockPlace {
             first: RowPosition { replicate: range.replicate, point: points.start, run: 0 },
-            part_length: part_length(points.start / BLOCK, BLOCK, self.run.job.model.outputs().len()),
+            parts: PartShape::of_block(points.start / BLOCK, BLOCK, self.run.job.model.outputs().len()),
             sampled: sampled.saturating_sub(points.start) as usize,
             keeps_outputs: self.run.keeps_outputs,
         };

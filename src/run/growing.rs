@@ -139,7 +139,7 @@ impl<'a> GrowingRun<'a> {
         if self.totals.is_empty() {
             self.totals = new;
         } else {
-            for (totals, new) in self.totals.iter_mut().zip(&new) {
+            for (totals, new) in self.totals.iter_mut().zip(new) {
                 totals.merge(new);
             }
         }

@@ -87,18 +87,20 @@ impl<'a> MissingRows<'a> {
     }
 
     /// Saves blocks of rows in the journal and the store; returns the number of their rows, and how many of them failed.
-    pub fn keep(&self, blocks: &[RowBlock]) -> Result<(u64, u64), RunError> {
+    pub fn keep(&self, blocks: Vec<RowBlock>) -> Result<(u64, u64), RunError> {
         let (mut rows, mut failed) = (0, 0);
         for block in blocks {
-            self.journal.map_or(Ok(()), |journal| record(journal, block))?;
-            self.store.insert(block);
+            self.journal.map_or(Ok(()), |journal| record(journal, &block))?;
             rows += block.rows(self.store.outputs());
             failed += block.failed_rows().len() as u64;
             if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, block.failures.first()) {
                 let (row, per_point) = (block.first + u64::from(*row), self.job.design.rows_per_point());
                 let row = RowPosition { replicate: block.replicate, point: row / per_point, run: row % per_point };
-                return Err(RunError::RowFailed { row, reason: reason.clone() });
+                let reason = reason.clone();
+                self.store.insert(block);
+                return Err(RunError::RowFailed { row, reason });
             }
+            self.store.insert(block);
         }
         Ok((rows, failed))
     }
@@ -125,7 +127,7 @@ impl RowSource for MissingRows<'_> {
     }
 
     fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError> {
-        self.keep(&answered(range, batch))
+        self.keep(answered(range, batch))
     }
 
     fn remote(&self) -> Option<&MissingRows<'_>> {

@@ -7,7 +7,7 @@ use super::rows::BaseColumns;
 use super::totals::{OutputTotals, Totals};
 use super::{Job, RunError, Store};
 use crate::design::{BasePoints, Design};
-use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PartShape, PointOutputs, Workspace};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
 /// A worker and buffers for the evaluation of blocks, reused from block to block.
@@ -16,6 +16,8 @@ pub(super) struct Scratch<'f> {
     columns: BaseColumns,
     /// The outputs that were evaluated or recalled last, a batch for each run of the design.
     pub batches: Vec<Batch>,
+    /// The outputs of several runs, for models that prefer long calls, and their inputs.
+    joined: (Batch, Vec<Vec<f64>>),
     workspace: Workspace,
 }
 
@@ -23,7 +25,8 @@ impl<'f> Scratch<'f> {
     /// Creates empty buffers, and no worker.
     pub fn new(job: Job<'_>) -> Self {
         let batches = vec![Batch::new(job.model); job.design.runs().len()];
-        Self { worker: None, columns: BaseColumns::default(), batches, workspace: Workspace::default() }
+        let joined = (Batch::new(job.model), vec![Vec::new(); job.design.factors()]);
+        Self { worker: None, columns: BaseColumns::default(), batches, joined, workspace: Workspace::default() }
     }
 
     /// Sets the outputs of `points` base points at `place` to those in `store`; returns false if a row is missing.
@@ -45,17 +48,35 @@ impl<'f> Scratch<'f> {
         self.columns.fill(space, design, base, first, count);
         let (values, worker) = (&self.columns.values, self.worker.get_or_insert_with(|| model.worker(context)));
         let mut inputs: Vec<&[f64]> = Vec::with_capacity(design.factors());
-        for (run, batch) in design.runs().iter().zip(&mut self.batches) {
+        let at_once = model.rows_per_call().div_ceil(count.max(1)).max(1);
+        for (runs, batches) in design.runs().chunks(at_once).zip(self.batches.chunks_mut(at_once)) {
             if context.is_stopped() {
                 return Err(RunError::GaveUp(RowFailure::interrupted().into()));
             }
+            batches.iter_mut().for_each(|batch| batch.reset(count));
             inputs.clear();
-            inputs.extend((0..design.factors()).map(|factor| values[design.column(run, factor)].as_slice()));
-            batch.reset(count);
-            worker.run(&inputs, batch);
-            batch.settle();
-            if let Some(reason) = batch.given_up() {
+            let evaluated = if let ([run], [batch]) = (runs, &mut *batches) {
+                inputs.extend((0..design.factors()).map(|factor| values[design.column(run, factor)].as_slice()));
+                worker.run(&inputs, batch);
+                batch
+            } else {
+                let (batch, columns) = &mut self.joined;
+                for (factor, column) in columns.iter_mut().enumerate() {
+                    column.clear();
+                    runs.iter().for_each(|run| column.extend_from_slice(&values[design.column(run, factor)]));
+                }
+                batch.reset(runs.len() * count);
+                worker.run(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), batch);
+                batch
+            };
+            evaluated.settle();
+            if let Some(reason) = evaluated.given_up() {
                 return Err(RunError::GaveUp(reason.clone()));
+            }
+            if runs.len() > 1 {
+                let (joined, _) = &self.joined;
+                batches.iter_mut().enumerate().for_each(|(run, batch)| batch.copy_rows(joined, run * count));
+                batches[0].add_counts(joined.flags(), joined.counts());
             }
         }
         Ok(())
@@ -95,14 +116,14 @@ impl<'f> Scratch<'f> {
             }
         }
         let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
-        let (a, b, length) = (runs[0], runs[1], place.part_length as usize);
+        let (a, b, length) = (runs[0], runs[1], place.parts.length as usize);
         let parts = (0..a.len()).step_by(length).map(|first| {
             let part = first..(first + length).min(a.len());
             let (ab, ba) = (parts_of(&runs, design.ab_runs(), &part), parts_of(&runs, design.ba_runs(), &part));
             let (a, b, paired) = (&a[part.clone()], &b[part.clone()], design.paired());
             Moments::of_block(BlockOutputs { a, b, ab: &ab, ba: &ba, paired }, &mut self.workspace)
         });
-        totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts.collect());
+        totals.moments = MomentParts::new(place.parts, a.len() as u64, parts.collect());
         if place.keeps_outputs {
             totals.point_outputs = PointOutputs::of_block(&runs);
         }
@@ -123,8 +144,8 @@ fn parts_of<'r>(runs: &[&'r [f64]], selected: &[usize], part: &Range<usize>) -> 
 pub(super) struct BlockPlace {
     /// Row A of the first base point.
     pub first: RowPosition,
-    /// Base points in each part with separate moments, a power of two.
-    pub part_length: u64,
+    /// Its parts with separate moments.
+    pub parts: PartShape,
     /// How many of its base points, from the first on, belong to the sample.
     pub sampled: usize,
     /// Whether all outputs are kept.

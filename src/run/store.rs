@@ -33,11 +33,7 @@ impl RowBlock {
         let (runs, mut block) = (batches.len(), Self { replicate, first, ..Self::default() });
         block.values.resize(points * runs * outputs, f64::NAN);
         for (run, batch) in batches.iter().enumerate() {
-            for output in 0..outputs {
-                for (point, value) in batch.column(output).iter().enumerate() {
-                    block.values[(point * runs + run) * outputs + output] = *value;
-                }
-            }
+            batch.write_rows(&mut block.values[run * outputs..], runs * outputs);
             for (output, point, why) in batch.failures() {
                 block.failures.push(((point * runs + run) as u32, *output as u32, why.clone()));
             }
@@ -147,7 +143,7 @@ impl Store {
 
     /// Saves the rows of `block` in the store, replacing existing ones; returns the number of new rows. Rows that were
     /// counted together with a replaced one become missing, unless `block` has them too.
-    pub fn insert(&self, block: &RowBlock) -> u64 {
+    pub fn insert(&self, block: RowBlock) -> u64 {
         let rows = block.first..block.first + block.rows(self.outputs);
         let mut held = self.held();
         let replaced = self.overlapping(&held, block.replicate, &rows);
@@ -160,7 +156,7 @@ impl Store {
             self.keep_without(&mut held, &old, replaced);
         }
         if !rows.is_empty() {
-            held.insert((block.replicate, block.first), block.clone());
+            held.insert((block.replicate, block.first), block);
         }
         rows.end - rows.start - existing
     }
@@ -242,22 +238,36 @@ impl Store {
     /// false, with undefined batches, if a row is missing.
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
         let (runs, points) = (batches.len(), batches.first().map_or(0, Batch::rows));
-        let first = point * runs as u64;
-        let Some(block) = self.block(replicate, first..first + (points * runs) as u64) else { return false };
-        for (run, batch) in batches.iter_mut().enumerate() {
-            for output in 0..self.outputs {
-                for (point, value) in batch.column_mut(output).iter_mut().enumerate() {
-                    *value = block.values[(point * runs + run) * self.outputs + output];
+        let (first, outputs) = (point * runs as u64, self.outputs);
+        let rows = first..first + (points * runs) as u64;
+        let (held, mut next) = (self.held(), first);
+        for (block, common) in self.overlapping(&held, replicate, &rows) {
+            if common.start != next {
+                return false;
+            }
+            next = common.end;
+            // Rows count from the first one that is asked for, places from the first one of the block.
+            let (start, end) = ((common.start - first) as usize, (common.end - first) as usize);
+            let place = (common.start - block.first) as usize;
+            for (run, batch) in batches.iter_mut().enumerate() {
+                let row = start + (run + runs - start % runs) % runs;
+                if row < end {
+                    let values = &block.values[(place + row - start) * outputs..(place + end - start) * outputs];
+                    batch.set_rows(row / runs, values, runs * outputs);
                 }
             }
+            for (row, output, why) in &block.failures {
+                if let Some(row) = (*row as usize).checked_sub(place).map(|row| row + start).filter(|row| *row < end) {
+                    batches[row % runs].fail(row / runs, *output as usize, why.clone());
+                }
+            }
+            if block.first >= first {
+                // Counts are summed over all runs of a block, so any batch may hold them.
+                batches[0].add_counts(&block.flags, &block.counts);
+            }
         }
-        for (row, output, why) in block.failures {
-            batches[row as usize % runs].fail(row as usize / runs, output as usize, why);
-        }
-        // Counts are summed over all runs of a block, so any batch may hold them.
-        batches[0].add_counts(&block.flags, &block.counts);
         batches.iter_mut().for_each(Batch::settle);
-        true
+        next == rows.end
     }
 }
 

@@ -132,7 +132,7 @@ impl RowSource for Table<'_, '_> {
         let mut rows = 0;
         for block in answered(range, batch) {
             self.run.journal.as_ref().map_or(Ok(()), |journal| record(&journal.open, &block))?;
-            rows += self.store.insert(&block);
+            rows += self.store.insert(block);
         }
         self.run.done.fetch_add(rows, Relaxed);
         Ok((rows, 0))

@@ -287,7 +287,7 @@ fn the_sample_is_the_first_base_points_of_each_replicate_in_order() {
         }
     }
     let mut both = totals[0].clone();
-    both.merge(&totals[1]);
+    both.merge(totals[1].clone());
     let all = &both.outputs[0];
     assert_eq!(all.sample, [&totals[0].outputs[0].sample[..], &totals[1].outputs[0].sample].concat());
     assert_eq!(all.values.count(), 2 * 2 * 700);

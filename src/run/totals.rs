@@ -4,8 +4,19 @@ use super::failures::{Failures, RowPosition};
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
 
-/// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
+/// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`], unless there are very
+/// many outputs.
 pub(crate) const SAMPLE: u64 = 1 << 15;
+
+/// Number of outputs above which fewer base points are kept of each, and their smallest number.
+const WELL_SAMPLED_OUTPUTS: u64 = 64;
+const SMALLEST_SAMPLE: u64 = 1 << 11;
+
+/// Returns the number of base points of each replicate, at least one, that are kept of each of `outputs` outputs.
+pub(super) fn sampled_points(outputs: usize, replicates: u64) -> u64 {
+    let points = SAMPLE * WELL_SAMPLED_OUTPUTS / (outputs as u64).max(WELL_SAMPLED_OUTPUTS);
+    (points.max(SMALLEST_SAMPLE) / replicates).max(1)
+}
 
 /// Totals of one output.
 #[derive(Debug, Clone, Default)]
@@ -14,7 +25,7 @@ pub struct OutputTotals {
     pub moments: MomentParts,
     /// Moments of every value of the rows A and B.
     pub values: CentralMoments,
-    /// Outputs of the rows A and B of the first [`SAMPLE`]/replicates base points of each replicate (at least one), in
+    /// Outputs of the rows A and B of the first [`SAMPLE`]/replicates base points of each replicate (fewer of very many outputs), in
     /// the order of the points: A, B, A, B, ...; NaN where a run failed.
     pub sample: Vec<f64>,
     /// The outputs of every run, if they are kept.
@@ -60,12 +71,12 @@ impl Totals {
     }
 
     /// Adds the rows that follow in the same replicate.
-    pub fn merge(&mut self, other: &Self) {
-        self.add_counts(other);
-        for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.moments.append(&theirs.moments);
-            mine.sample.extend_from_slice(&theirs.sample);
-            mine.point_outputs.append(&theirs.point_outputs);
+    pub fn merge(&mut self, other: Self) {
+        self.add_counts(&other);
+        for (mine, theirs) in self.outputs.iter_mut().zip(other.outputs) {
+            mine.moments.append(theirs.moments);
+            mine.sample.extend(theirs.sample);
+            mine.point_outputs.append(theirs.point_outputs);
         }
     }
 

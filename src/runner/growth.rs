@@ -143,12 +143,12 @@ impl Growth<'_> {
         let (mut has_all, model) = (true, study.model());
         all.surrogates = surrogates(study, &design, run.totals(), &low_fidelity, &[]);
         for number in 0..outputs {
-            let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
+            let parts: Vec<&MomentParts> = run.totals().iter().map(|t| &t.outputs[number].moments).collect();
             let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
             let surrogate = all.surrogates.get(number).and_then(Option::as_ref);
             let points = KeptPoints::all(&design, &kept);
             let unread = study.unread(model.as_ref(), number);
-            let options = IntervalOptions { points, unread: &unread, surrogate, ranks: false, ..options };
+            let options = IntervalOptions { points, unread: &unread, surrogate, draws: 0, ..options };
             let indices = output_indices(&parts, &layout, &options);
             if let Some(indices) = indices.as_ref().ok().filter(|indices| indices.surrogate.is_some()) {
                 all.is_checked &= indices.plain_half_width().is_some_and(|half| half <= MAX_PLAIN_HALF_WIDTH);

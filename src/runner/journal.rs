@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::{Resume, Runner};
 use crate::model::Messages;
 use crate::run::journal::{Contents, Journal, JournalProblem, differences, read_journal_file, with_ending};
-use crate::run::{MAX_STORED_BYTES, ModelFiles, Progress, RunError, Shard, Store, differing};
+use crate::run::{MAX_STORED_BYTES, ModelFiles, Progress, RowBlock, RunError, Shard, Store, differing};
 use crate::study::Study;
 
 /// Runs that are expected to take longer than this are worth a journal.
@@ -43,9 +43,9 @@ impl RunJournal {
         Ok(Self { open: Journal::create(path, &header)?.with_files(&self.files).into(), ..self })
     }
 
-    /// Adds a resumed journal with these contents.
-    fn with_resumed(self, study: &Study, journal: Journal, contents: &Contents) -> Self {
-        Self { store: recorded(study, contents), open: journal.with_files(&self.files).into(), ..self }
+    /// Adds a resumed journal with these blocks.
+    fn with_resumed(self, study: &Study, journal: Journal, blocks: Vec<RowBlock>) -> Self {
+        Self { store: recorded(study, blocks), open: journal.with_files(&self.files).into(), ..self }
     }
 
     /// Creates the journal of a run that is expected to be long; an error only causes a warning.
@@ -96,7 +96,7 @@ pub(super) fn open_for_parts(
         return none.with_new(path, header, false);
     };
     match another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)) {
-        None => Ok(none.with_resumed(study, journal, &contents)),
+        None => Ok(none.with_resumed(study, journal, contents.blocks)),
         Some(kind) => {
             drop(journal);
             move_aside(path, &kind.to_string(), messages)?;
@@ -144,7 +144,7 @@ pub(super) fn open(
         let what = "after its last complete record; their runs are evaluated again";
         messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
     }
-    let resumed = none.with_resumed(study, journal, &contents);
+    let resumed = none.with_resumed(study, journal, contents.blocks);
     if resume == Resume::RetryFailed {
         match resumed.store.forget_failures() {
             0 => messages.send(&format!("note: no run in {} has failed", path.display())),
@@ -238,14 +238,14 @@ pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError>
     if let Some(problem) = another_model(&contents.header, &ModelFiles::new(study.subject.files()).digests) {
         return Err(problem.at(path).into());
     }
-    Ok(rows_on_record(study, &recorded(study, &contents)))
+    Ok(rows_on_record(study, &recorded(study, contents.blocks)))
 }
 
-/// Returns a store of the runs of `study` in a journal; of duplicates, the later one counts.
-pub(super) fn recorded(study: &Study, contents: &Contents) -> Store {
+/// Returns a store of the runs of `study` in the blocks of a journal; of duplicates, the later one counts.
+pub(super) fn recorded(study: &Study, blocks: Vec<RowBlock>) -> Store {
     let store = Store::new(study.model().as_ref());
     let outputs = store.outputs();
-    for block in &contents.blocks {
+    for block in blocks {
         if block.replicate < study.design.settings().replicates && block.is_complete(outputs) {
             store.insert(block);
         }

@@ -24,7 +24,7 @@ pub(super) fn merged(
     let mut shards = Shards::default();
     for journal in journals {
         let contents = journal::read(study, journal)?;
-        let part = recorded(study, &contents);
+        let part = recorded(study, contents.blocks);
         shards.note(study, contents.header["shard"].as_str(), &part);
         for block in part.blocks() {
             let rows = block.first..block.first + block.rows(part.outputs());
@@ -34,8 +34,8 @@ pub(super) fn merged(
                 return Err(JournalProblem::PartlyMerged.at(journal).into());
             }
             for block in gaps.into_iter().filter_map(|gap| part.block(block.replicate, gap)) {
-                store.insert(&block);
                 record(&merged.open, &block)?;
+                store.insert(block);
             }
         }
     }

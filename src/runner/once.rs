@@ -55,7 +55,7 @@ impl<'a> Runner<'a> {
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
         if let Some(store) = self.store {
             for block in journal.store.blocks() {
-                store.insert(&block);
+                store.insert(block);
             }
         }
         let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));

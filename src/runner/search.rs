@@ -154,7 +154,7 @@ impl Search<'_> {
         for replicate in 0..plain.settings().replicates {
             for point in 0..plain.points_per_replicate() {
                 if let Some(block) = self.plain.block(replicate, 2 * point..2 * point + 2) {
-                    self.swapped.insert(&crate::run::RowBlock { first: point * design.rows_per_point(), ..block });
+                    self.swapped.insert(crate::run::RowBlock { first: point * design.rows_per_point(), ..block });
                 }
             }
         }

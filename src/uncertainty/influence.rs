@@ -16,10 +16,12 @@ pub struct Influences {
 impl Influences {
     /// Computes influences on `quantities`, a function from the moments of an output to a list of numbers of fixed
     /// length, or `None` if undefined. Returns `None` if they are undefined on all parts.
-    pub fn from_moments(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
-        let replicates: Vec<&MomentParts> = replicates.iter().collect();
-        let LeftOut { of_all, without, points, points_of_parts } = LeftOut::new(&replicates, quantities);
-        Some(Self::new(&replicates, of_all?, &without, points, &points_of_parts))
+    pub fn from_moments(
+        replicates: &[&MomentParts],
+        quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>,
+    ) -> Option<Self> {
+        let LeftOut { of_all, without, points, points_of_parts } = LeftOut::new(replicates, quantities);
+        Some(Self::new(replicates, of_all?, &without, points, &points_of_parts))
     }
 
     /// Computes influences from the `estimates` of all parts and those `without` each part of the replicates.

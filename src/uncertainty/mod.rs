@@ -31,6 +31,7 @@ pub(crate) use points::KeptPoints;
 pub(crate) use ranks::probability_first;
 use serde::{Deserialize, Serialize};
 pub(crate) use standard_error::{ErrorKind, PartInfluences, Side, StandardError};
+use std::cell::Cell;
 pub(crate) use unseen::{RULE_OF_THREE, half_seen, unseen};
 
 use apportion_base::special::t_quantile_outside;
@@ -166,7 +167,12 @@ pub(crate) fn t_quantile(freedom: f64) -> Option<f64> {
         let z = NORMAL_QUANTILE;
         return Some(z + (z.powi(3) + z) / (4.0 * freedom)).filter(|_| freedom.is_finite());
     }
-    (freedom > 0.0).then(|| t_quantile_outside(1.0 - Interval::LEVEL, freedom)).filter(|quantile| quantile.is_finite())
+    // Most intervals of an output have the same degrees of freedom.
+    thread_local! { static LAST: Cell<(f64, f64)> = const { Cell::new((f64::NAN, f64::NAN)) }; }
+    if freedom > 0.0 && LAST.get().0 != freedom {
+        LAST.set((freedom, t_quantile_outside(1.0 - Interval::LEVEL, freedom)));
+    }
+    (freedom > 0.0).then(|| LAST.get().1).filter(|quantile| quantile.is_finite())
 }
 
 /// Returns half the width of the widest interval; `None` if an estimate has none.

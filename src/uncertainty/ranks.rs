@@ -9,20 +9,17 @@ use super::standard_error::{PartInfluences, StandardError};
 use super::{Estimate, NORMAL_QUANTILE, t_quantile};
 use apportion_base::special::t_above;
 
-/// Number of draws for each probability: its own error is then below 0.008.
-const DRAWS: usize = 4096;
-
 /// Distance from the lead, in standard errors of both together, beyond which a quantity is not drawn: t of one degree
 /// of freedom exceeds it once in 60 draws, of three once in 30000.
 const OUT_OF_REACH: f64 = 40.0;
 
 /// Estimates for each of `ranked` the probability that its true value is the largest of all, as far as the errors are
 /// known: the share of draws from their joint distribution (Student's t, correlated as the influences of the parts are)
-/// in which it is the largest. `seed` makes the draws repeatable. The probabilities sum to 1; with fewer than two
-/// parts, or unknown errors, there are none.
-pub(crate) fn probability_first(ranked: &[&Judgement], seed: u64) -> Option<Vec<f64>> {
+/// in which it is the largest. `seed` makes the `draws` repeatable. The probabilities sum to 1; with fewer than two
+/// parts, unknown errors, or no draws, there are none.
+pub(crate) fn probability_first(ranked: &[&Judgement], seed: u64, draws: usize) -> Option<Vec<f64>> {
     let lead = *ranked.iter().max_by(|a, b| a.estimate.estimate.total_cmp(&b.estimate.estimate))?;
-    if ranked.iter().any(|of| !of.error.error.is_finite() || of.error.freedom <= 0.0) {
+    if draws == 0 || ranked.iter().any(|of| !of.error.error.is_finite() || of.error.freedom <= 0.0) {
         return None;
     }
     let rivals: Vec<usize> = (0..ranked.len()).filter(|&k| may_lead(ranked[k], lead)).collect();
@@ -35,22 +32,22 @@ pub(crate) fn probability_first(ranked: &[&Judgement], seed: u64) -> Option<Vec<
     let chi_squared = ChiSquared::new(lead.error.freedom).ok()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut normals = vec![0.0; directions.iter().map(Vec::len).max().unwrap_or(0)];
-    for _ in 0..DRAWS {
+    let mut values = vec![0.0; rivals.len()];
+    for _ in 0..draws {
         normals.fill_with(|| StandardNormal.sample(&mut rng));
         let widening = (lead.error.freedom / chi_squared.sample(&mut rng)).sqrt();
-        let mut values = Vec::with_capacity(rivals.len());
-        for (direction, &k) in directions.iter().zip(&rivals) {
+        for ((value, direction), &k) in values.iter_mut().zip(&directions).zip(&rivals) {
             let z: f64 = direction.iter().zip(&normals).map(|(weight, z)| weight * z).sum();
-            values.push(ranked[k].estimate.estimate + ranked[k].error.error * widening * z);
+            *value = ranked[k].estimate.estimate + ranked[k].error.error * widening * z;
         }
         let best = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // Equal values share the draw.
         let share = 1.0 / values.iter().filter(|value| **value == best).count() as f64;
-        for (&k, value) in rivals.iter().zip(values) {
-            wins[k] += if value == best { share } else { 0.0 };
+        for (&k, value) in rivals.iter().zip(&values) {
+            wins[k] += if *value == best { share } else { 0.0 };
         }
     }
-    Some(wins.into_iter().map(|wins| wins / DRAWS as f64).collect())
+    Some(wins.into_iter().map(|wins| wins / draws as f64).collect())
 }
 
 /// Returns whether the true value of `of` may be larger than that of `lead`, the largest estimate.

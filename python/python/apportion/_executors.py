@@ -109,7 +109,9 @@ class Blocks:
 def _evaluate(call: Any, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
     """Runs in the worker."""
     call = call.load() if isinstance(call, _ByValue) else call
-    return call.evaluate(call.rows(x))
+    values, failures = call.evaluate(call.rows(x))
+    # The function may use its array again before this one is read.
+    return values.copy(), failures
 
 
 class _ByValue:

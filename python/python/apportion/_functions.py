@@ -68,7 +68,7 @@ class Call:
         if self.lengths or answer.lengths or len(self.outputs) == 1 < answer.width:
             self._learn_lengths(answer)
         self._check(answer)
-        return answer.values
+        return answer.values.copy()
 
     def _learn_lengths(self, answer: Answer) -> None:
         """The outputs that are series, with their numbers of values if known: those with several columns."""
@@ -100,9 +100,9 @@ class Call:
         """Outputs of `rows` (rows, factors), which are what the function gets, NaN where there are none, and (row, reason) where it
         raised an exception, or returned None for the row.
 
-        A block that raises is divided until the rows are found that do.
+        A block that raises is divided until the rows are found that do. The array of a whole block is the function's own.
         """
-        values = np.full((len(rows), len(self.columns)), np.nan)
+        values: np.ndarray | None = None
         failures: list[tuple[int, str]] = []
         blocks = [(0, len(rows))] if self.vectorised else [(row, row + 1) for row in range(len(rows))]
         while blocks:
@@ -121,8 +121,14 @@ class Call:
                     blocks += [(middle, last), (first, middle)]
             else:
                 self._check(answer)
+                if last - first == len(rows):
+                    return answer.values, []
+                values = self._missing(rows) if values is None else values
                 values[first:last] = answer.values
-        return values, sorted(failures)
+        return self._missing(rows) if values is None else values, sorted(failures)
+
+    def _missing(self, rows: np.ndarray) -> np.ndarray:
+        return np.full((len(rows), len(self.columns)), np.nan)
 
     def _answer(self, rows: np.ndarray) -> Answer:
         # Copies: a function may change its arguments in place, and the rows may be asked again.

@@ -29,7 +29,7 @@ def numbers(values: Any, what: str, error: type[Exception] = StudyError) -> np.n
             raise TypeError
     except (TypeError, ValueError):
         raise error(f"{what} {values if wrong is None else wrong!r:.80}: expected real numbers") from None
-    return array.astype(float)
+    return array.astype(float, copy=False)
 
 
 def _number(value: Any) -> float:

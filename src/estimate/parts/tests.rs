@@ -12,7 +12,8 @@ fn moments(first: u64, last: u64) -> Moments {
 /// Returns the points `first..last` in parts of `length`.
 fn parts(first: u64, last: u64, length: u64) -> MomentParts {
     let starts = (first..last).step_by(length as usize);
-    MomentParts::new(length, last - first, starts.map(|s| moments(s, (s + length).min(last))).collect())
+    let shape = PartShape { length, most: MAX_PARTS };
+    MomentParts::new(shape, last - first, starts.map(|s| moments(s, (s + length).min(last))).collect())
 }
 
 #[test]
@@ -20,7 +21,7 @@ fn parts_stay_few_and_equal_and_keep_every_point() {
     let mut all = parts(0, 256, 2);
     assert_eq!((all.parts().len(), all.points()), (64, 256));
     for block in 1..40 {
-        all.append(&parts(block * 256, (block + 1) * 256, part_length(block, 256, 1)));
+        all.append(parts(block * 256, (block + 1) * 256, PartShape::of_block(block, 256, 1).length));
         let counts: Vec<u64> = all.parts().iter().map(Moments::count).collect();
         assert!((32..=64).contains(&counts.len()), "{} parts", counts.len());
         let (last, others) = counts.split_last().unwrap();
@@ -35,11 +36,11 @@ fn parts_stay_few_and_equal_and_keep_every_point() {
 fn the_whole_does_not_depend_on_when_parts_were_paired() {
     let fine = parts(0, 1024, 16);
     let mut joined = parts(0, 256, 16);
-    joined.append(&parts(256, 512, 16));
+    joined.append(parts(256, 512, 16));
     let mut right = parts(512, 768, 256);
-    right.append(&parts(768, 1024, 256));
+    right.append(parts(768, 1024, 256));
     assert_eq!(joined.sum(), fine.prefix(32).sum());
-    joined.append(&parts(512, 1024, 16));
+    joined.append(parts(512, 1024, 16));
     assert_eq!(joined.sum(), fine.sum());
     assert_eq!(joined.sum().count(), 1024);
 }
@@ -47,10 +48,10 @@ fn the_whole_does_not_depend_on_when_parts_were_paired() {
 #[test]
 fn nothing_appended_to_nothing() {
     let mut none = MomentParts::default();
-    none.append(&MomentParts::default());
+    none.append(MomentParts::default());
     assert_eq!(none.sum().count(), 0);
-    none.append(&parts(0, 10, 4));
+    none.append(parts(0, 10, 4));
     assert_eq!(none, parts(0, 10, 4));
-    none.append(&MomentParts::default());
+    none.append(MomentParts::default());
     assert_eq!(none, parts(0, 10, 4));
 }

@@ -32,13 +32,13 @@ fn counted(mut blocks: Vec<Totals>) -> Totals {
     for block in blocks.drain(..) {
         let (mut size, mut totals) = (1, block);
         while let Some((_, mut left)) = open.pop_if(|(other, _)| *other == size) {
-            left.merge(&totals);
+            left.merge(totals);
             (size, totals) = (2 * size, left);
         }
         open.push((size, totals));
     }
     let merged = open.into_iter().map(|(_, totals)| totals).rev().reduce(|right, mut left| {
-        left.merge(&right);
+        left.merge(right);
         left
     });
     merged.unwrap()
@@ -63,6 +63,6 @@ fn the_tree_is_that_of_a_binary_counter() {
     }
     // A run of a power of two of blocks is the left half of one that is twice as long.
     let (mut grown, rest, all) = (fold(job, 0..1024), fold(job, 1024..2048), fold(job, 0..2048));
-    grown.iter_mut().zip(&rest).for_each(|(totals, rest)| totals.merge(rest));
+    grown.iter_mut().zip(&rest).for_each(|(totals, rest)| totals.merge(rest.clone()));
     assert!(format!("{grown:?}") == format!("{all:?}"));
 }

@@ -90,7 +90,7 @@ fn shards_make_up_the_whole_run() {
         run.journal = Some(&journal);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
         for block in read_journal_file(&path).unwrap().blocks {
-            all.insert(&block);
+            all.insert(block);
         }
     }
     rows.store(0, Ordering::Relaxed);

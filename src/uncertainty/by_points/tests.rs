@@ -54,7 +54,7 @@ impl Sample {
         for first in (0..points).step_by(256) {
             let end = (first + 256).min(points);
             let columns: Vec<&[f64]> = self.columns.iter().map(|column| &column[first..end]).collect();
-            kept.append(&PointOutputs::of_block(&columns));
+            kept.append(PointOutputs::of_block(&columns));
         }
         kept
     }

@@ -8,7 +8,7 @@ fn error(error: f64, freedom: f64) -> StandardError {
 fn first(estimates: &[f64], errors: &[StandardError], parts: &[&PartInfluences], seed: u64) -> Option<Vec<f64>> {
     let ranked: Vec<Judgement> =
         (0..parts.len()).map(|k| Judgement::new(Estimate::alone(estimates[k]), errors[k], parts[k].clone())).collect();
-    probability_first(&ranked.iter().collect::<Vec<_>>(), seed)
+    probability_first(&ranked.iter().collect::<Vec<_>>(), seed, 4096)
 }
 
 #[test]

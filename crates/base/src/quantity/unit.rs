@@ -193,6 +193,11 @@ impl Unit {
         self.dimension == other.dimension && (!is_label || self == other)
     }
 
+    /// Returns whether its values are those in SI.
+    pub fn is_si(&self) -> bool {
+        self.is_decimal() && self.decade == 0 && self.degrees == 0 && !self.has_offset()
+    }
+
     /// Returns whether its zero differs from that of SI, as for `degC`: ratios of its values have no meaning.
     pub fn has_offset(&self) -> bool {
         self.offset != 0.0

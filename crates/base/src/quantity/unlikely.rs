@@ -68,22 +68,27 @@ impl Unlikely {
     /// Returns the same of `values` of independent rows; or any value that occurs many times among values that all differ,
     /// unless it is a limit of their range.
     pub fn find_in_rows(values: &[f64]) -> Option<Self> {
-        Self::find(values).or_else(|| Self::repeated(values))
+        let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        Self::find_in_sorted_rows(values, &sorted)
+    }
+
+    /// Returns the same, given the finite `values` in rising order, too.
+    pub fn find_in_sorted_rows(values: &[f64], sorted: &[f64]) -> Option<Self> {
+        Self::find(values).or_else(|| Self::repeated(values, sorted))
     }
 
     /// Returns the value that alone occurs many times.
-    fn repeated(values: &[f64]) -> Option<Self> {
-        let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-        finite.sort_unstable_by(f64::total_cmp);
-        let runs: Vec<&[f64]> = finite.chunk_by(|a, b| a == b).collect();
-        let longest = runs.iter().max_by_key(|run| run.len())?;
-        let (value, count, of) = (longest[0], longest.len(), finite.len());
-        let others = range(&finite, Some(value));
+    fn repeated(values: &[f64], sorted: &[f64]) -> Option<Self> {
+        let runs = || sorted.chunk_by(|a, b| a == b);
+        let longest = runs().max_by_key(|run| run.len())?;
+        let (value, count, of) = (longest[0], longest.len(), sorted.len());
+        let others = range(sorted, Some(value));
         let width = others.1 - others.0;
         let beyond = (others.0 - value).max(value - others.1);
         let is_limit = (-0.0..=CUT * width).contains(&beyond);
         let is_many = count >= MIN_COUNT.max((MIN_SHARE * of as f64) as usize) && 2 * count <= of;
-        let all_differ = runs.len() >= MIN_VALUES && runs.len() - 1 == of - count;
+        let all_differ = runs().count() >= MIN_VALUES && runs().count() - 1 == of - count;
         let first = values.iter().position(|other| *other == value)?;
         (is_many && all_differ && !is_limit).then_some(Self { value, count, first, of, others })
     }

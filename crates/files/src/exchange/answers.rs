@@ -85,7 +85,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         }
         let mut block = RowBlock { replicate, first: rows.start, ..RowBlock::default() };
         fill(&mut block, model.outputs(), answers, missing, row - count as u64)?;
-        store.insert(&block);
+        store.insert(block);
         Ok(())
     })?;
     if numbered.is_none() && reader.read(&wanted, 1, &mut cells)? > 0 {
