@@ -167,3 +167,27 @@ def test_given_data_can_be_interrupted():
     assert time.monotonic() - begun < 3
     # The process ends, although the computation has not.
     assert process.wait(timeout=20) == 7
+
+
+_NESTED = """
+import apportion as ap
+import numpy as np
+
+x = {"x1": (0, 1), "x2": (0, 1)}
+
+def inner(a):
+    total = ap.analyse(lambda x1, x2: x1 + a * x2, x, base_samples=64, surrogate="off").total["x2"]
+    rows = np.random.default_rng(0).random((30, 2))
+    return float(total), len(ap.given_data(rows, rows[:, 0] ** 2).lead)
+
+outer = ap.Study(inner, {"a": (1, 2)}, outputs=["total", "rows"], vectorised=False, base_samples=8)
+assert outer.run(executor=executor).runs == 16
+"""
+
+
+@pytest.mark.parametrize("executor", ["None", "__import__('concurrent.futures').futures.ThreadPoolExecutor(2)"])
+def test_a_function_may_run_an_analysis_of_its_own(executor):
+    # In a process of its own: a run that waits for itself cannot be interrupted.
+    script = f"executor = {executor}\n{_NESTED}"
+    run = subprocess.run([sys.executable, "-W", "ignore", "-c", script], timeout=120, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
