@@ -129,7 +129,8 @@ pub fn attend<R: Send>(
 pub fn watched<R: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Stop) -> R + Send + 'static) -> PyResult<R> {
     let (stop, (sender, receiver)) = (Stop::default(), channel());
     let seen = stop.clone();
-    let handle = std::thread::Builder::new().spawn(move || drop(sender.send(in_own_pool(|| work(&seen))))).map_err(failed)?;
+    let handle =
+        std::thread::Builder::new().spawn(move || drop(sender.send(in_own_pool(|| work(&seen))))).map_err(failed)?;
     py.detach(move || {
         loop {
             match receiver.recv_timeout(LOOK) {
