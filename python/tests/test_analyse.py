@@ -372,7 +372,8 @@ def test_a_journal_resumes_an_interrupted_run(cube, tmp_path):
         return polynomial(*x)
 
     def run():
-        return ap.analyse(f, cube, base_samples=64, vectorised=False, call="matrix", journal=tmp_path / "f.journal")
+        options = {"base_samples": 64, "vectorised": False, "journal": tmp_path / "f.journal", "version": "1"}
+        return ap.analyse(f, cube, call="matrix", **options)
 
     with pytest.raises(KeyboardInterrupt):
         run()

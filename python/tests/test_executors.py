@@ -37,8 +37,8 @@ def test_functions_without_a_module_are_sent(cube):
 def test_a_broken_pool_stops_the_run_and_its_journal_resumes(cube, tmp_path):
     journal = tmp_path / "f.journal"
     function = DiesOnce(str(tmp_path / "mark"))
-    options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "journal": journal}
-    study = ap.Study(function, cube, **{key: options[key] for key in ("base_samples", "outputs", "call")})
+    options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "version": "1"}
+    study = ap.Study(function, cube, **options)
     study._tried = {}
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         with pytest.raises(ap.RunError, match="the executor failed"):

@@ -1,15 +1,20 @@
 """Wrong sizes, wrong input and signals: what is said, and when."""
 
 import inspect
+import json
 import os
+import re
 import subprocess
 import sys
 import time
+import typing
 
 import apportion as ap
 import numpy as np
 import pytest
+import typed_script
 
+from apportion import _keys
 from apportion.salib.analyze import sobol
 from apportion.salib.sample import sobol as sobol_sample
 
@@ -58,7 +63,7 @@ def test_unknown_keywords_are_errors_whatever_their_value():
         ({"n_jobs": 0}, "unknown keyword n_jobs: did you mean threads, which run"),
         ({"second_ordr": False}, "did you mean second_order"),
         ({"target": 0.01}, "did you mean accuracy"),
-        ({"nonsense_of_mine": None}, "expected one of outputs"),
+        ({"nonsense_of_mine": None}, "expected one of "),
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.Study(add, UNIT, **keywords)
@@ -83,6 +88,21 @@ def test_keywords_are_in_the_signature_and_a_generator_is_a_seed():
     made = [ap.Study(None, UNIT, base_samples=16, seed=np.random.default_rng(3)).sample() for _ in range(2)]
     assert np.array_equal(*made)
     assert not np.array_equal(made[0], ap.Study(None, UNIT, base_samples=16).sample())
+
+
+def test_types_are_the_choices_of_the_engine(program):
+    schema = json.loads(subprocess.run([program, "schema", "study"], capture_output=True, text=True, check=True).stdout)
+    for section, options in (("DesignSection", _keys.DesignOptions), ("AnalysisSection", _keys.AnalysisOptions)):
+        keys = schema["definitions"][section]["properties"]
+        assert set(keys) == set(options.__annotations__)
+        for key, of in keys.items():
+            names = of.get("enum") or of.get("items", {}).get("enum") or []
+            assert set(re.findall("'(.*?)'", str(typing.get_type_hints(options)[key]))) == set(names), key
+
+
+def test_the_script_of_a_user_has_types():
+    # That its types are right is checked by mypy, in the recipe.
+    typed_script.main()
 
 
 def test_both_spellings_of_vectorised_are_honoured():

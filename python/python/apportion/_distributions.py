@@ -251,10 +251,10 @@ class _Quantile:
         if not hasattr(self.distribution, "dist"):
             return type(self.distribution).__module__, type(self.distribution).__qualname__, repr(self.distribution)
         dist, of = self.distribution.dist, type(self.distribution.dist)
-        parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
-        made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}
+        parameters = {**getattr(dist, "_updated_ctor_param", dict)(), **self.distribution.kwds}
+        made = sorted(item for item in parameters.items() if item[0] not in ("seed", "longname", "extradoc"))
         own = () if of.__module__.startswith("scipy.") else [vars(of).get(name) for name in ("_ppf", "_cdf", "_pdf", "_pmf")]
-        return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
+        return of.__module__, of.__qualname__, dist.name, self.distribution.args, *made, *own
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
         quantile = self.distribution.icdf if hasattr(self.distribution, "icdf") else self.distribution.ppf

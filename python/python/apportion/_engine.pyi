@@ -1,21 +1,24 @@
 """The engine, as the package calls it."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+__all__ = ["__version__", "StudyError", "RunError", "Study", "Document", "Stop", "distributions", "given_data", "unlikely", "read_document"]
 
 class StudyError(ValueError):
     problem: str
 class RunError(RuntimeError):
     result: Any
 
+@final
 class Stop:
     def is_set(self) -> bool: ...
 
+@final
 class Document:
     @property
     def name(self) -> str: ...
@@ -28,6 +31,7 @@ class Document:
     def tables(self) -> list[tuple[str, str]]: ...
     def save(self, folder: str) -> str: ...
 
+@final
 class Study:
     @staticmethod
     def parse(text: str, path: str, overrides: list[str]) -> Study: ...

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._answers import Answer, AnswerError, NoAnswer, expanded, read
 from ._engine import StudyError
-from ._fingerprint import constant, fingerprint, holdings
+from ._identity import identity_of
 from ._signatures import STYLES, style_of
 
 
@@ -44,8 +44,6 @@ class Call:
         self.outputs = list(outputs) if outputs is not None else None
         self.lengths = dict(lengths or {})
         self.quantiles = dict(quantiles)
-        # Where it holds what its calls change, such as counters: nothing that tells it from another function.
-        self._changing: set[str] = set()
 
     def rows(self, x: np.ndarray) -> np.ndarray:
         """The values that the function gets for rows of the engine: the same, except for factors by their quantile functions."""
@@ -57,12 +55,7 @@ class Call:
 
     def probe(self, rows: np.ndarray) -> np.ndarray:
         """The outputs of `rows`, which must answer and show the names of the outputs."""
-        before = self._held()
-        try:
-            answer = self._answer(rows)
-        finally:
-            held = self._held()
-            self._changing |= {path for path in {**before, **held} if before.get(path) != held.get(path)}
+        answer = self._answer(rows)
         if self.outputs is None:
             self.outputs = answer.names or ["y"] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
         if self.lengths or answer.lengths or len(self.outputs) == 1 < answer.width:
@@ -152,12 +145,9 @@ class Call:
             what = "values" if self.lengths else "outputs"
             raise AnswerError(f"the function returned {answer.width} {what}, and {len(self.columns)} were expected: {expected}")
 
-    def _held(self) -> dict[str, str]:
-        return holdings(self.function, [(self.names[place], quantile) for place, quantile in self.quantiles.items()])
-
-    def fingerprint(self) -> str:
-        """Identifies this function by its code and the values that it holds, without the functions that it calls by name."""
-        return fingerprint(self.function, constant(self._held(), self._changing))
+    def identity(self, version: str | None) -> str:
+        """Identifies this function in journals: see `identity_of`."""
+        return identity_of(self.function, self.quantiles.values(), version)
 
 
 def reason_of(error: BaseException) -> str:
