@@ -29,7 +29,7 @@ def test_five_lines(cube, tmp_path):
     assert np.asarray(result.total).shape == (3,)
     assert all(low <= e <= high for e, low, high in result.total.values())
     page = result._repr_html_()
-    assert "<svg" in page and "<table>" in page and "<th>total</th>" in page and "x2" in repr(result)
+    assert "<svg" in page and "<table>" in page and "<th>S_T</th>" in page and "x2" in repr(result)
     page = result.save(tmp_path / "out")
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     again = ap.load_result(tmp_path / "out" / "study.json")

@@ -1,9 +1,12 @@
 """What functions may do, hold and return."""
 
+import dataclasses
+import decimal
 import functools
 import os
 import subprocess
 import sys
+import typing
 
 import apportion as ap
 import numpy as np
@@ -332,6 +335,8 @@ def test_numbers_are_floats_whatever_the_factor():
 
 
 HELD = """
+import dataclasses
+import decimal
 import functools
 import numpy as np
 import apportion as ap
@@ -355,3 +360,63 @@ def test_identities_are_the_same_in_every_process():
         assert done.returncode == 0, done.stderr
         found.add(done.stdout)
     assert len(found) == 1 and len(set(found.pop().split("\n"))) == 4
+
+
+class Pair(typing.NamedTuple):
+    u: float
+    v: float
+
+
+@dataclasses.dataclass
+class Both:
+    u: float
+    v: float
+
+
+def test_names_of_what_a_function_returns():
+    pandas = pytest.importorskip("pandas")
+    options = {"vectorised": False, "base_samples": 16}
+    for made in (Pair, Both, lambda u, v: pandas.Series({"u": u, "v": v}), lambda u, v: {"u": decimal.Decimal(u), "v": v}):
+        result = ap.analyse(lambda x1, x2: made(x1, x2), UNIT, **options)
+        assert list(result) == ["u", "v"] and result["u"].total["x2"].estimate == 0
+    many = ap.analyse(lambda x1, x2: Both(x1, x2), UNIT, base_samples=16)
+    assert many["v"].total["x2"].estimate == 1
+
+
+def test_a_number_is_a_fixed_factor():
+    result = ap.analyse(lambda x1, x2, k: x1 + k * x2, {**UNIT, "k": 2.0}, base_samples=64)
+    assert result.runs == 64 * 4 and result.total["k"] == ap.Index(0.0, 0.0, 0.0)
+    assert abs(result.total["x2"].estimate - 0.8) < 1e-6
+
+
+def test_matrices_are_correlations():
+    pandas = pytest.importorskip("pandas")
+    rows = np.random.default_rng(1).normal(size=(100, 3)) @ [[1, 1, 0], [0, 1, 0], [0, 0, 1]]
+    frame = pandas.DataFrame(rows, columns=["a", "b", "c"])
+    factors = {name: ap.Normal(0, 1) for name in "abc"}
+
+    def total(dependence):
+        return dict(ap.analyse(lambda a, b, c: a + b - c, factors, dependence=dependence, base_samples=64).total)
+
+    matrix = np.corrcoef(rows.T)
+    pairs = total({("a", "b"): matrix[0, 1], ("a", "c"): matrix[0, 2], ("b", "c"): matrix[1, 2]})
+    for given in (matrix, frame.corr(), frame[["c", "a", "b"]].corr()):
+        np.testing.assert_allclose([tuple(of) for of in total(given).values()], [tuple(of) for of in pairs.values()], atol=1e-9)
+    with pytest.raises(ap.StudyError):
+        total(rows)
+
+
+def test_given_data_leaves_out_failed_rows_and_codes_texts():
+    pandas = pytest.importorskip("pandas")
+    rng = np.random.default_rng(1)
+    table = pandas.DataFrame({"x": rng.random(200), "kind": rng.choice(["red", "green", "blue"], 200)})
+    y = table["x"] + 2.0 * (table["kind"] == "red")
+    whole = ap.given_data(table[2:], y[2:])
+    y[:2] = np.nan
+    with pytest.warns(ap.SensitivityWarning, match="^2 of 200 rows"):
+        found = ap.given_data(table, y)
+    assert found.to_dict()["outputs"] == whole.to_dict()["outputs"]
+    coded = table.assign(kind=table["kind"].map({"blue": 0, "green": 1, "red": 2}))
+    assert found.to_dict()["outputs"] == ap.given_data(coded[2:], y[2:]).to_dict()["outputs"]
+    with pytest.raises(ap.StudyError):
+        ap.given_data({"x": [1.0, "a", 2.0]}, [1.0, 2.0, 3.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import numbers
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -36,13 +37,15 @@ class Factor:
 
     @classmethod
     def of(cls, value: Any) -> "Factor":
-        """A factor from a factor, a mapping of keys, a pair (min, max) or a distribution of SciPy."""
+        """A factor from a factor, a mapping of keys, a pair (min, max), a distribution of SciPy, or a number, which is a constant."""
         if isinstance(value, Factor):
             return value
         if isinstance(value, Mapping):
             return cls(value)
         if hasattr(value, "ppf") or hasattr(value, "icdf"):
             return from_scipy(value)
+        if isinstance(value, numbers.Real) and not isinstance(value, bool):
+            return cls({"distribution": "constant", "value": float(value)})
         if isinstance(value, (tuple, list, np.ndarray)) and np.shape(value) == (2,):
             return Uniform(*value)
         raise StudyError(f"{value!r} is not a factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")

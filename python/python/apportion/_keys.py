@@ -74,7 +74,7 @@ class TableOptions(TypedDict, total=False):
     title: str | None
     accuracy: float | None
     smallest_region: float | None
-    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None
+    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | Any
     noise: str | Mapping[str, Any] | None
     afm: Mapping[str, Any] | None
     function: Mapping[str, Any] | None
@@ -167,11 +167,18 @@ def dependence_tables(asked: Any, factors: Mapping[str, Factor]) -> list[dict[st
         return []
     if isinstance(asked, Mapping) and "factors" in asked:
         asked = [asked]
+    elif np.ndim(asked) == 2 and hasattr(asked, "__array__"):
+        matrix = np.array(asked, dtype=float)
+        # Those of np.corrcoef and of pandas are rounded.
+        if matrix.shape[0] == matrix.shape[1] and np.allclose(matrix, matrix.T) and np.allclose(np.diag(matrix), 1.0):
+            matrix = (matrix + matrix.T) / 2
+            np.fill_diagonal(matrix, 1.0)
+        asked = [{"factors": list(map(str, getattr(asked, "columns", factors))), "correlation": matrix}]
     elif isinstance(asked, Mapping):
         asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
     if not isinstance(asked, (list, tuple)) or not all(isinstance(table, Mapping) for table in asked):
         raise StudyError(
-            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, or a list of tables'
+            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, a matrix of all, or a list of tables'
         )
     tables = [dict(table) for table in asked]
     for table in tables:

@@ -294,21 +294,15 @@ class Study:
         stop = _engine.Stop()
         function = self._function(stop)
         document = self._study.screen(
-            function,
-            stop,
-            trajectories=trajectories,
-            levels=levels,
-            seed=seed,
-            threads=threads,
-            progress=None,
+            function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=None
         )
-        return Document(document)
+        return Document(document).warned()
 
     def sweep(self, *factors: str, points: int = 101) -> Document:
         """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named."""
         points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
-        return Document(self._study.sweep(self._function(stop), stop, list(factors), points))
+        return Document(self._study.sweep(self._function(stop), stop, list(factors), points)).warned()
 
     def _function(
         self, stop: _engine.Stop, executor: Any = None, in_flight: int | None = None, is_kept: bool = False
@@ -413,9 +407,7 @@ def _with_warnings(result: Result) -> Result:
         error = RunError(f"there are no indices: {reasons}")
         error.result = result
         raise error
-    for warning in dict.fromkeys(result.warnings):
-        warn(warning)
-    return result
+    return result.warned()
 
 
 def analyse(
@@ -454,7 +446,7 @@ def analyse(
     failures: Failures | None = None,
     max_failed: float | None = None,
     noise: str | Mapping[str, Any] | None = None,
-    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None = None,
+    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | Any = None,
     afm: Mapping[str, Any] | None = None,
     function: Mapping[str, Any] | None = None,
     expression: Mapping[str, Any] | None = None,
@@ -496,7 +488,7 @@ def analyse(
     Failed runs: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
 
     Tables of a study file: `afm={...}`, `function={...}`, `expression={...}` (constants), `fidelity={...}` (cheaper models).
-    Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of
+    Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or the matrix of all (`np.corrcoef(rows.T)`, `df.corr()`), or a list of
     tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; or from
     joint measurements, one in each row: `[{"factors": ["a", "b"], "measurements": array}]`.
 
