@@ -253,7 +253,7 @@ fn percent_below(share: f64) -> String {
     significant((share * 1e4).floor() / 1e2)
 }
 
-/// Factor of the number of runs above which nobody could check it.
+/// Factor of the number of runs above which it cannot be checked.
 const MAX_GAIN: f64 = 1000.0;
 
 /// Says by how much the surrogates make indices more accurate.
