@@ -263,7 +263,8 @@ class Study:
         `threads`: of the engine; 0 for one per core. `executor`: any executor of `concurrent.futures` or of its kind, which
         gets blocks of rows, `in_flight` at a time. `journal`: a file that keeps evaluated runs; the same call resumes
         an interrupted run (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
-        tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is installed and the output is interactive.
+        tqdm, or a line a minute without it, a function of (done, total), False for nothing; by default True, if the output is
+        interactive.
         """
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
@@ -284,25 +285,32 @@ class Study:
         levels: int | None = None,
         seed: int | None = None,
         threads: int = 0,
+        executor: Any = None,
+        in_flight: int | None = None,
+        progress: bool | Callable[[int, int], None] | None = None,
     ) -> Document:
         """Elementary effects: screening of many factors, with a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid."""
+        `levels` the trajectories of Morris (1991) on a grid. `executor`, `in_flight` and `progress` are those of `run`."""
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
-        function = self._function(stop)
-        document = self._study.screen(
-            function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=None
-        )
+        function = self._function(stop, executor, in_flight)
+        # A trajectory at a time for each thread.
+        threads = function["workers"] if function is not None and executor is not None else threads
+        with Progress(progress, self.name) as bar:
+            document = self._study.screen(
+                function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=bar.callback
+            )
         return Document(document).warned()
 
-    def sweep(self, *factors: str, points: int = 101) -> Document:
-        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named."""
+    def sweep(self, *factors: str, points: int = 101, executor: Any = None) -> Document:
+        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named. `executor`
+        is that of `run`."""
         points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
-        return Document(self._study.sweep(self._function(stop), stop, list(factors), points)).warned()
+        return Document(self._study.sweep(self._function(stop, executor), stop, list(factors), points)).warned()
 
     def _function(
         self, stop: _engine.Stop, executor: Any = None, in_flight: int | None = None, is_kept: bool = False
