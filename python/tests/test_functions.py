@@ -420,3 +420,10 @@ def test_given_data_leaves_out_failed_rows_and_codes_texts():
     assert found.to_dict()["outputs"] == ap.given_data(coded[2:], y[2:]).to_dict()["outputs"]
     with pytest.raises(ap.StudyError):
         ap.given_data({"x": [1.0, "a", 2.0]}, [1.0, 2.0, 3.0])
+
+
+def test_a_factor_may_be_called_y():
+    factors = {"x": (0, 1), "y": (0, 1)}
+    assert list(ap.analyse(lambda x, y: x + y, factors, base_samples=16)) == ["output"]
+    study = ap.Study(None, factors, base_samples=16)
+    assert list(study.analyse(study.sample().sum(axis=1))) == ["output"] and list(study.analyse({"z": np.arange(64.0)})) == ["z"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -57,7 +57,7 @@ class Call:
         """The outputs of `rows`, which must answer and show the names of the outputs."""
         answer = self._answer(rows)
         if self.outputs is None:
-            self.outputs = answer.names or ["y"] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
+            self.outputs = answer.names or [unnamed(self.names)] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
         if self.lengths or answer.lengths or len(self.outputs) == 1 < answer.width:
             self._learn_lengths(answer)
         self._check(answer)
@@ -148,6 +148,11 @@ class Call:
     def identity(self, version: str | None) -> str:
         """Identifies this function in journals: see `identity_of`."""
         return identity_of(self.function, self.quantiles.values(), version)
+
+
+def unnamed(factors: Collection[str]) -> str:
+    """The name of the only output of a function that does not name it."""
+    return "output" if "y" in factors else "y"
 
 
 def reason_of(error: BaseException) -> str:

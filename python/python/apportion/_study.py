@@ -15,7 +15,7 @@ from ._checks import MAX_SEED, MAX_THREADS, whole
 from ._distributions import Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere, workers_of
-from ._functions import Call, reason_of, with_hint
+from ._functions import Call, reason_of, unnamed, with_hint
 from ._keys import (
     RUN,
     AnalysisOptions,
@@ -109,7 +109,7 @@ class Study:
         elif outputs is not None:
             table["outputs"] = list(outputs)
         elif table["model"] == "external":
-            table["outputs"] = ["y"]
+            table["outputs"] = [unnamed(made)]
         for key, of in {"design": DesignOptions, "analysis": AnalysisOptions}.items():
             table[key] = {name: options.pop(name) for name in of.__annotations__ if name in options}
         factor = [{"name": key, **factor.keys} for key, factor in stated.items()]
@@ -190,7 +190,7 @@ class Study:
         if self._study.grows:
             raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
         # The names of the outputs are unknown.
-        is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
+        is_unnamed = self._study.is_external and self._table.get("outputs") == [unnamed(self.factors)]
         outputs = in_order(outputs)
         columns = named(outputs, "the outputs have")
         if columns is None:
