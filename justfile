@@ -73,7 +73,7 @@ pages: _cargo (_environment "pages" "-r tests/browser/requirements.txt")
     "$check" tests/browser/check.py --browser "$browser" --expect-faults tests/browser/faulty.html
     "$check" tests/browser/live.py "$apportion" --browser "$browser" --drags 200
 
-# Lints and types of the Python package; a wheel, installed in a new environment, and its tests there
+# Lints and types of the Python package; a wheel, installed in a new environment, its tests and the types that users see there
 python: _cargo (_tool "mpirun" "a package of the system, as in apt-get install openmpi-bin") (_environment "python" "-r python/tests/requirements.txt maturin mypy ruff")
     {{ quote(in_python / "ruff") }} check --config python/pyproject.toml python .ci
     cd python && {{ quote(in_python / "mypy") }} python/apportion
@@ -81,6 +81,8 @@ python: _cargo (_tool "mpirun" "a package of the system, as in apt-get install o
     CARGO_TARGET_DIR={{ quote(target / "python") }} {{ quote(in_python / "maturin") }} build --release --quiet --manifest-path python/Cargo.toml --out {{ quote(environments / "wheels") }}
     cargo build --release --quiet --bin apportion
     @{{ quote(just_executable()) }} wheel-test {{ quote(environments / "wheels") }}
+    {{ quote(in_python / "mypy") }} --strict python/tests/typed_script.py
+    {{ quote(in_python / "stubtest") }} --mypy-config-file python/pyproject.toml apportion._engine apportion._distributions
 
 # The tests of the Python package with the wheel in FOLDER
 wheel-test FOLDER="dist": (_environment "python" "-r python/tests/requirements.txt")

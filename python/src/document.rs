@@ -4,11 +4,13 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 
 use apportion::result::parse_result;
+use apportion::uncertainty::{Estimate, Interval};
+use apportion_report::chart::ChartWidth;
 use apportion_report::document::Part;
 use apportion_report::given::given_document;
 use apportion_report::screening::screening_document;
 use apportion_report::sweep::sweep_document;
-use apportion_report::{Artefacts, ChartFormat, run_document};
+use apportion_report::{Artefacts, ChartFormat, give_or_take, run_document};
 use pyo3::prelude::*;
 
 use crate::errors::{failed, input};
@@ -69,9 +71,16 @@ impl Document {
         files.map(|file| (file.name, file.text)).collect()
     }
 
-    /// Writes the page, the JSON and CSV files and the charts as SVG to `folder`; returns the path of the page.
-    fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<PathBuf> {
-        let artefacts = Artefacts { formats: vec![ChartFormat::Svg], ..Artefacts::new(folder) };
+    /// Writes the page, the JSON and CSV files and the charts in these formats to `folder`, `width` wide on paper; returns the path
+    /// of the page.
+    fn save(&self, py: Python<'_>, folder: PathBuf, formats: Vec<String>, width: Option<String>) -> PyResult<PathBuf> {
+        let known = |name: String| {
+            let format = ChartFormat::ALL.into_iter().find(|format| format.name() == name);
+            format.ok_or_else(|| input(format!("charts: {name:?} is none of \"svg\", \"png\" and \"pdf\"")))
+        };
+        let formats = formats.into_iter().map(known).collect::<PyResult<_>>()?;
+        let width = width.map(|width| width.parse().map(ChartWidth::Paper).map_err(input)).transpose()?;
+        let artefacts = Artefacts { formats, width: width.unwrap_or_default(), ..Artefacts::new(folder) };
         let written = py.detach(|| artefacts.write(&self.document));
         written.map(|written| written.page).map_err(failed)
     }
@@ -88,6 +97,13 @@ fn collect(parts: &[Part], charts: &mut Vec<(String, String)>) -> PyResult<()> {
         }
     }
     Ok(())
+}
+
+/// An index with its interval as the text prints it.
+#[pyfunction]
+pub fn in_words(estimate: f64, low: f64, high: f64) -> String {
+    let interval = Some(Interval { low, high }).filter(|interval| !interval.low.is_nan());
+    give_or_take(Estimate { estimate, interval })
 }
 
 /// The document of a JSON file that was written, called `name` where the file does not say it.

@@ -23,5 +23,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(points::given_data, module)?)?;
     module.add_function(wrap_pyfunction!(points::unlikely, module)?)?;
     module.add_function(wrap_pyfunction!(document::read_document, module)?)?;
+    module.add_function(wrap_pyfunction!(document::in_words, module)?)?;
     Ok(())
 }

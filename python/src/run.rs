@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use apportion::Progress;
 use pyo3::prelude::*;
+use rayon::ThreadPoolBuilder;
 
 use crate::errors::failed;
 use crate::function::{Event, PythonModel, Stop};
@@ -70,6 +71,11 @@ impl Drop for End {
     }
 }
 
+/// What `work` returns, done in a pool of its own: one that is shared waits for ever in a run whose function starts a run.
+fn in_own_pool<R: Send>(work: impl FnOnce() -> R + Send) -> PyResult<R> {
+    ThreadPoolBuilder::new().build().map(|pool| pool.install(work)).map_err(failed)
+}
+
 /// What `work` returns, done in a thread of its own, while `duty` is done in this one. The first error of Python ends the run
 /// and is returned, an interruption among them.
 pub fn attend<R: Send>(
@@ -84,7 +90,7 @@ pub fn attend<R: Send>(
         std::thread::scope(|scope| {
             let handle = scope.spawn(move || {
                 let _end = End(finished);
-                work()
+                in_own_pool(work)
             });
             let mut error = None;
             let mut fail = |outcome: PyResult<()>, stop: &Stop| {
@@ -115,7 +121,7 @@ pub fn attend<R: Send>(
         return Err(error);
     }
     told.tell(py, listeners)?;
-    done.map_err(|panic| std::panic::resume_unwind(panic))
+    done.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// What `work` returns, done in a thread of its own while this one watches for signals. An interruption is told at once: `work`,
@@ -123,11 +129,12 @@ pub fn attend<R: Send>(
 pub fn watched<R: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Stop) -> R + Send + 'static) -> PyResult<R> {
     let (stop, (sender, receiver)) = (Stop::default(), channel());
     let seen = stop.clone();
-    let handle = std::thread::Builder::new().spawn(move || drop(sender.send(work(&seen)))).map_err(failed)?;
+    let handle =
+        std::thread::Builder::new().spawn(move || drop(sender.send(in_own_pool(|| work(&seen))))).map_err(failed)?;
     py.detach(move || {
         loop {
             match receiver.recv_timeout(LOOK) {
-                Ok(result) => return Ok(result),
+                Ok(result) => return result,
                 Err(RecvTimeoutError::Timeout) => {
                     Python::attach(|py| py.check_signals()).inspect_err(|_| stop.set())?
                 }

@@ -29,7 +29,7 @@ def test_five_lines(cube, tmp_path):
     assert np.asarray(result.total).shape == (3,)
     assert all(low <= e <= high for e, low, high in result.total.values())
     page = result._repr_html_()
-    assert "<svg" in page and "<table>" in page and "<th>total</th>" in page and "x2" in repr(result)
+    assert "<svg" in page and "<table>" in page and "<th>S_T</th>" in page and "x2" in repr(result)
     page = result.save(tmp_path / "out")
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     again = ap.load_result(tmp_path / "out" / "study.json")
@@ -372,7 +372,8 @@ def test_a_journal_resumes_an_interrupted_run(cube, tmp_path):
         return polynomial(*x)
 
     def run():
-        return ap.analyse(f, cube, base_samples=64, vectorised=False, call="matrix", journal=tmp_path / "f.journal")
+        options = {"base_samples": 64, "vectorised": False, "journal": tmp_path / "f.journal", "version": "1"}
+        return ap.analyse(f, cube, call="matrix", **options)
 
     with pytest.raises(KeyboardInterrupt):
         run()
@@ -465,3 +466,40 @@ def test_a_function_that_draws_random_numbers_is_noticed(cube):
     assert any("stochastic-models.md" in warning for warning in result.warnings)
     result = ap.analyse(lambda x1, x2, x3: x1 + x2, cube, base_samples=256)
     assert not any("stochastic-models.md" in warning for warning in result.warnings)
+
+
+def assert_same(found, expected):
+    """The same indices but for the last bits, which the number of effects moves."""
+    np.testing.assert_allclose([tuple(found[name]) for name in expected], [tuple(of) for of in expected.values()], atol=1e-12)
+
+
+@pytest.mark.parametrize("size", [{"base_samples": 256}, {"runs": 300}, {"accuracy": 0.02}])
+def test_constants_cost_nothing_and_their_indices_are_0(size):
+    def f(x):
+        return x[:, 0] + 2 * x[:, 21] * x[:, 32] + x[:, 53] ** 2
+
+    varying = (0, 21, 32, 53)
+    factors = {f"x{j}": ap.Uniform(0, 1) if j in varying else ap.Constant(1) for j in range(60)}
+    all_of_them = ap.analyse(f, factors, **size)
+    alone = ap.analyse(lambda x: x[:, 0] + 2 * x[:, 1] * x[:, 2] + x[:, 3] ** 2, {f"x{j}": (0, 1) for j in varying}, **size)
+    assert all_of_them.runs == alone.runs
+    for kind in ("first_order", "total"):
+        ours, expected = getattr(all_of_them, kind), getattr(alone, kind)
+        assert ours.names == list(factors)
+        assert_same(ours, expected)
+        assert set(ours[name] for name in ours if name not in expected) == {ap.Index(0.0, 0.0, 0.0)}
+
+
+def test_constants_cost_nothing_in_any_kind_of_index():
+    lines = [f'factors.{name} = {{ distribution = "uniform", min = 0, max = 1, group = "g{name}" }}' for name in "ace"]
+    formula = "model = 'expression'\noutputs.y = { formula = 'a * c + e' }"
+    options = "[design]\nbase_samples = 256\n[analysis]\nsecond_order = true\nshapley = true\nestimators = ['azzini']\n"
+    fewer = ap.Study.parse("\n".join([formula, *lines, options])).run()
+    lines += [f"factors.{name} = {{ distribution = 'constant', value = 7 }}" for name in "bd"]
+    result = ap.Study.parse("\n".join([formula, *sorted(lines), options])).run()
+    assert result.runs == fewer.runs
+    for kind in ("first_order", "total", "shapley", "second_order"):
+        ours, expected = getattr(result, kind), getattr(fewer, kind)
+        assert_same(ours, expected)
+        assert {float(ours[name]) for name in ours if name not in expected} == {0.0}
+    assert_same(result.groups(), fewer.groups())

@@ -11,6 +11,8 @@ import pytest
 from conftest import polynomial
 from functions_elsewhere import DiesOnce, row, slow_row
 
+from apportion import _progress
+
 HERE = Path(__file__).resolve().parent
 
 
@@ -37,8 +39,8 @@ def test_functions_without_a_module_are_sent(cube):
 def test_a_broken_pool_stops_the_run_and_its_journal_resumes(cube, tmp_path):
     journal = tmp_path / "f.journal"
     function = DiesOnce(str(tmp_path / "mark"))
-    options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "journal": journal}
-    study = ap.Study(function, cube, **{key: options[key] for key in ("base_samples", "outputs", "call")})
+    options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "version": "1"}
+    study = ap.Study(function, cube, **options)
     study._tried = {}
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         with pytest.raises(ap.RunError, match="the executor failed"):
@@ -194,3 +196,21 @@ def test_jobs_without_timeouts_are_asked_whether_they_are_done():
     factors = {"x1": (0, 1), "x2": (0, 1), "x3": (0, 1)}
     found = ap.analyse(polynomial, factors, base_samples=16, executor=Queue())
     assert np.array_equal(found.total, ap.analyse(polynomial, factors, base_samples=16).total)
+
+
+def test_screenings_and_sweeps_take_executors_and_progress(cube):
+    told = []
+    study = ap.Study(row, cube, vectorised=False, call="matrix")
+    expected = study.screen(8).to_dict()["outputs"], study.sweep(points=5).to_dict()["sweeps"]
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as executor:
+        screened = study.screen(8, executor=executor, progress=lambda done, total: told.append((done, total)))
+        assert (screened.to_dict()["outputs"], study.sweep(points=5, executor=executor).to_dict()["sweeps"]) == expected
+    assert told[-1] == (32, 32)
+
+
+def test_progress_needs_no_tqdm(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    monkeypatch.setattr(_progress, "_SECONDS_OF_A_LINE", 0.0)
+    ap.analyse(slow_row, {"x": (0, 1), "y": (0, 1), "z": (0, 1)}, base_samples=64, vectorised=False, call="matrix", progress=True)
+    lines = [line for line in capsys.readouterr().err.splitlines() if "minutes left" in line]
+    assert lines and all("of 320 runs" in line for line in lines)

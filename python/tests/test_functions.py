@@ -1,9 +1,12 @@
 """What functions may do, hold and return."""
 
+import dataclasses
+import decimal
 import functools
 import os
 import subprocess
 import sys
+import typing
 
 import apportion as ap
 import numpy as np
@@ -32,10 +35,7 @@ class Linear:
 
 
 def with_closure(k):
-    calls = []
-
     def f(x1, x2):
-        calls.append(1)
         return x1 + k * x2
 
     return f
@@ -69,68 +69,55 @@ def with_decorator(k):
 WAYS = {
     "partial keyword": lambda k: functools.partial(linear, k=k),
     "partial argument": lambda k: functools.partial(lambda c, x1, x2: x1 + c[0] * x2, np.array([k])),
-    "partial method": lambda k: functools.partial(Linear(k).method),
     "closure": with_closure,
     "keyword default": with_keyword,
     "array default": with_array,
+    "decorator": with_decorator,
+    "cache": lambda k: functools.lru_cache(with_keyword(k)),
+}
+# What may change unseen.
+OTHERS = {
     "instance": Linear,
     "method": lambda k: Linear(k).method,
-    "decorator": with_decorator,
-    "nested": lambda k: with_nested({"deep": [Linear(k)]}),
+    "partial method": lambda k: functools.partial(Linear(k).method),
+    "nested": lambda k: with_nested((Linear(k),)),
+    "list": lambda k: with_nested([with_keyword(k)]),
 }
 
 
 def with_nested(held):
-    return lambda x1, x2: held["deep"][0](x1, x2)
+    return lambda x1, x2: held[0](x1, x2)
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_a_journal_knows_what_a_function_holds(way, tmp_path):
-    made = {}
-    for k in (1.0, 5.0, 1.0):
-        options = {"base_samples": 16, "vectorised": False, "call": "columns", "journal": tmp_path / f"{k}.journal"}
-        result = ap.analyse(WAYS[way](k), UNIT, **options)
-        assert made.setdefault(k, dict(result.total)) == dict(result.total)
-    same = ap.analyse(WAYS[way](1.0), UNIT, base_samples=16, vectorised=False, call="columns", journal=tmp_path / "5.0.journal")
-    assert dict(same.total) == made[1.0] != made[5.0]
+def total(function, journal, **version):
+    options = {"base_samples": 16, "vectorised": False, "call": "columns", "journal": journal, **version}
+    return dict(ap.analyse(function, UNIT, **options).total)
+
+
+@pytest.mark.parametrize("way", [*WAYS, *OTHERS])
+def test_a_journal_tells_a_function_from_another(way, tmp_path):
+    def of(k, journal):
+        version = {"version": str(k)} if way in OTHERS else {}
+        return total({**WAYS, **OTHERS}[way](k), tmp_path / journal, **version)
+
+    made = {k: of(k, f"{k}.journal") for k in (1.0, 5.0)}
+    assert of(1.0, "1.0.journal") == made[1.0] and len(list(tmp_path.iterdir())) == 2
+    assert of(1.0, "5.0.journal") == made[1.0] != made[5.0]
     # The runs of the other one are kept aside.
     assert len(list(tmp_path.iterdir())) == 3
 
 
-def fingerprints(make):
-    found = []
-    for _ in range(2):
-        study = ap.Study(make(), UNIT, base_samples=16, call="columns", vectorised=False)
-        study._learn()
-        found.append(study._call.fingerprint())
-        study.evaluate([[0.5, 0.5]] * 3)
-        found.append(study._call.fingerprint())
-    return found
+@pytest.mark.parametrize("way", OTHERS)
+def test_a_journal_refuses_functions_that_change_unseen_without_a_version(way, tmp_path):
+    with pytest.raises(ap.StudyError, match="version="):
+        total(OTHERS[way](1.0), tmp_path / "f.journal")
+    assert not list(tmp_path.iterdir())
 
 
-def test_state_changed_by_calls_keeps_the_fingerprint():
-    """Counters, caches, generators and the like, which would make a journal useless."""
-
-    def with_cache():
-        cache, rng = {}, np.random.default_rng()
-        return lambda x1, x2: cache.setdefault((x1, x2), rng.normal()) + x1
-
-    class Itself:
-        def __init__(self):
-            self.me, self.all = self, {"me": self}
-
-        def __call__(self, x1, x2):
-            return x1
-
-    for make in (lambda: Linear(2.0), lambda: with_closure(2.0), with_cache, Itself):
-        assert len(set(fingerprints(make))) == 1
-
-
-def test_the_fingerprint_of_a_plain_function_is_that_of_its_code():
-    from apportion._fingerprint import holdings
-
-    assert holdings(linear) == {}
-    assert fingerprints(lambda: linear)[0].startswith(f"{__name__}.linear ")
+def test_a_version_stands_for_the_code(tmp_path):
+    one = total(lambda x1, x2: x1 + x2, tmp_path / "f.journal", version="1")
+    other = lambda x1, x2: x1 + 3 * x2  # noqa: E731
+    assert total(other, tmp_path / "f.journal", version="1") == one != total(other, tmp_path / "f.journal", version="2")
 
 
 def test_a_journal_knows_the_distributions_of_scipy(tmp_path):
@@ -348,52 +335,95 @@ def test_numbers_are_floats_whatever_the_factor():
 
 
 HELD = """
-import functools, decimal, pathlib, threading
-import numpy as np, apportion as ap
+import dataclasses
+import decimal
+import functools
+import numpy as np
+import apportion as ap
 
-class Slots:
-    __slots__ = ("a",)
-    def __init__(self):
-        self.a = {"left", "right", "middle"}
-
-class Model:
-    def __init__(self):
-        self.lock, self.kinds = threading.Lock(), {"x", "y", "z"}
-        self.parts = [Slots(), pathlib.PurePosixPath("a/b"), decimal.Decimal("0.1"), np.float32(3), np.dtype("f8"), np.random.default_rng(3)]
-        self.table = {("a", 1): np.arange(3), ("b", 2): np.ma.masked_equal([1, 2], 2), None: np.array([{1, 2}, None], dtype=object)}
-        try:
-            import pandas
-            self.frame = pandas.DataFrame({"a": [1.0, 2.0], "b": ["u", "v"]})
-        except ImportError:
-            pass
-
-    @functools.lru_cache
-    def cached(self, x1, x2):
-        return x1
-
-    def __call__(self, x1, x2):
-        return x1
-
-model = Model()
-
-def kept():
-    def f(x1, x2, where=frozenset({"here", "there"})):
-        return model(x1, x2) if held else x1
-    held = model, np.sin, np.vectorize(lambda x: x), f
+def kept(where=frozenset({"here", "there"})):
+    def f(x1, x2, *, words={"p", "q", "r"} and frozenset({"p", "q", "r"}), table=(np.arange(3), np.float32(3), b"1")):
+        return x1 if x2 in {"left", "right", "middle"} or held else f(x1, x2)
+    held = np.sin, where, functools
     return f
 
-for f in (model, kept(), np.vectorize(model), functools.partial(kept(), where={"p", "q", "r"}), functools.lru_cache(kept())):
-    study = ap.Study(f, {"x1": (0, 1), "x2": (0, 1)}, base_samples=16, call="columns", vectorised=False)
-    study._learn()
-    print(study._call.fingerprint())
+for f in (kept(), functools.partial(kept(), words=None), functools.lru_cache(kept())):
+    print(ap.Study(f, {"x1": (0, 1), "x2": (0, 1)}, call="columns")._call.identity(None))
 """
 
 
-def test_fingerprints_are_the_same_in_every_process():
+def test_identities_are_the_same_in_every_process():
     found = set()
     for seed in ("1", "2"):
         environment = {**os.environ, "PYTHONHASHSEED": seed}
         done = subprocess.run([sys.executable, "-c", HELD], capture_output=True, text=True, env=environment, timeout=120)
         assert done.returncode == 0, done.stderr
         found.add(done.stdout)
-    assert len(found) == 1 and len(set(found.pop().split("\n"))) == 6
+    assert len(found) == 1 and len(set(found.pop().split("\n"))) == 4
+
+
+class Pair(typing.NamedTuple):
+    u: float
+    v: float
+
+
+@dataclasses.dataclass
+class Both:
+    u: float
+    v: float
+
+
+def test_names_of_what_a_function_returns():
+    pandas = pytest.importorskip("pandas")
+    options = {"vectorised": False, "base_samples": 16}
+    for made in (Pair, Both, lambda u, v: pandas.Series({"u": u, "v": v}), lambda u, v: {"u": decimal.Decimal(u), "v": v}):
+        result = ap.analyse(lambda x1, x2: made(x1, x2), UNIT, **options)
+        assert list(result) == ["u", "v"] and result["u"].total["x2"].estimate == 0
+    many = ap.analyse(lambda x1, x2: Both(x1, x2), UNIT, base_samples=16)
+    assert many["v"].total["x2"].estimate == 1
+
+
+def test_a_number_is_a_fixed_factor():
+    result = ap.analyse(lambda x1, x2, k: x1 + k * x2, {**UNIT, "k": 2.0}, base_samples=64)
+    assert result.runs == 64 * 4 and result.total["k"] == ap.Index(0.0, 0.0, 0.0)
+    assert abs(result.total["x2"].estimate - 0.8) < 1e-6
+
+
+def test_matrices_are_correlations():
+    pandas = pytest.importorskip("pandas")
+    rows = np.random.default_rng(1).normal(size=(100, 3)) @ [[1, 1, 0], [0, 1, 0], [0, 0, 1]]
+    frame = pandas.DataFrame(rows, columns=["a", "b", "c"])
+    factors = {name: ap.Normal(0, 1) for name in "abc"}
+
+    def total(dependence):
+        return dict(ap.analyse(lambda a, b, c: a + b - c, factors, dependence=dependence, base_samples=64).total)
+
+    matrix = np.corrcoef(rows.T)
+    pairs = total({("a", "b"): matrix[0, 1], ("a", "c"): matrix[0, 2], ("b", "c"): matrix[1, 2]})
+    for given in (matrix, frame.corr(), frame[["c", "a", "b"]].corr()):
+        np.testing.assert_allclose([tuple(of) for of in total(given).values()], [tuple(of) for of in pairs.values()], atol=1e-9)
+    with pytest.raises(ap.StudyError):
+        total(rows)
+
+
+def test_given_data_leaves_out_failed_rows_and_codes_texts():
+    pandas = pytest.importorskip("pandas")
+    rng = np.random.default_rng(1)
+    table = pandas.DataFrame({"x": rng.random(200), "kind": rng.choice(["red", "green", "blue"], 200)})
+    y = table["x"] + 2.0 * (table["kind"] == "red")
+    whole = ap.given_data(table[2:], y[2:])
+    y[:2] = np.nan
+    with pytest.warns(ap.SensitivityWarning, match="^2 of 200 rows"):
+        found = ap.given_data(table, y)
+    assert found.to_dict()["outputs"] == whole.to_dict()["outputs"]
+    coded = table.assign(kind=table["kind"].map({"blue": 0, "green": 1, "red": 2}))
+    assert found.to_dict()["outputs"] == ap.given_data(coded[2:], y[2:]).to_dict()["outputs"]
+    with pytest.raises(ap.StudyError):
+        ap.given_data({"x": [1.0, "a", 2.0]}, [1.0, 2.0, 3.0])
+
+
+def test_a_factor_may_be_called_y():
+    factors = {"x": (0, 1), "y": (0, 1)}
+    assert list(ap.analyse(lambda x, y: x + y, factors, base_samples=16)) == ["output"]
+    study = ap.Study(None, factors, base_samples=16)
+    assert list(study.analyse(study.sample().sum(axis=1))) == ["output"] and list(study.analyse({"z": np.arange(64.0)})) == ["z"]

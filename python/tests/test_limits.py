@@ -1,15 +1,20 @@
 """Wrong sizes, wrong input and signals: what is said, and when."""
 
 import inspect
+import json
 import os
+import re
 import subprocess
 import sys
 import time
+import typing
 
 import apportion as ap
 import numpy as np
 import pytest
+import typed_script
 
+from apportion import _keys
 from apportion.salib.analyze import sobol
 from apportion.salib.sample import sobol as sobol_sample
 
@@ -58,7 +63,7 @@ def test_unknown_keywords_are_errors_whatever_their_value():
         ({"n_jobs": 0}, "unknown keyword n_jobs: did you mean threads, which run"),
         ({"second_ordr": False}, "did you mean second_order"),
         ({"target": 0.01}, "did you mean accuracy"),
-        ({"nonsense_of_mine": None}, "expected one of outputs"),
+        ({"nonsense_of_mine": None}, "expected one of "),
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.Study(add, UNIT, **keywords)
@@ -83,6 +88,21 @@ def test_keywords_are_in_the_signature_and_a_generator_is_a_seed():
     made = [ap.Study(None, UNIT, base_samples=16, seed=np.random.default_rng(3)).sample() for _ in range(2)]
     assert np.array_equal(*made)
     assert not np.array_equal(made[0], ap.Study(None, UNIT, base_samples=16).sample())
+
+
+def test_types_are_the_choices_of_the_engine(program):
+    schema = json.loads(subprocess.run([program, "schema", "study"], capture_output=True, text=True, check=True).stdout)
+    for section, options in (("DesignSection", _keys.DesignOptions), ("AnalysisSection", _keys.AnalysisOptions)):
+        keys = schema["definitions"][section]["properties"]
+        assert set(keys) == set(options.__annotations__)
+        for key, of in keys.items():
+            names = of.get("enum") or of.get("items", {}).get("enum") or []
+            assert set(re.findall("'(.*?)'", str(typing.get_type_hints(options)[key]))) == set(names), key
+
+
+def test_the_script_of_a_user_has_types():
+    # That its types are right is checked by mypy, in the recipe.
+    typed_script.main()
 
 
 def test_both_spellings_of_vectorised_are_honoured():
@@ -122,7 +142,7 @@ def test_tables_that_cannot_be_used_name_the_column():
     y = x[:, 0]
     frame = pandas.DataFrame(x, columns=["a", "b"])
     for inputs, outputs, words in [
-        (frame.assign(c="red"), y, "the inputs have in the column 'c'.*expected real numbers"),
+        (frame.assign(c=["red", *range(39)]), y, "the inputs have in the column 'c'.*expected real numbers"),
         (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns with the name 'a'"),
         (frame[:0], y[:0], "the inputs have no rows"),
         (frame[[]], y, "the inputs have no rows"),
@@ -134,7 +154,7 @@ def test_tables_that_cannot_be_used_name_the_column():
         # What is masked or missing is NaN, which a table of rows cannot have.
         (np.ma.masked_where(x > 0.9, x), y, "x1"),
         (frame.assign(a=frame.a.astype("Float64").mask(frame.a > 0.9)), y, "`a`"),
-        (x, np.ma.masked_where(y > 0.9, y), "`y`"),
+        (x, np.full(40, np.nan), "`y`"),
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.given_data(inputs, outputs)
@@ -167,3 +187,27 @@ def test_given_data_can_be_interrupted():
     assert time.monotonic() - begun < 3
     # The process ends, although the computation has not.
     assert process.wait(timeout=20) == 7
+
+
+_NESTED = """
+import apportion as ap
+import numpy as np
+
+x = {"x1": (0, 1), "x2": (0, 1)}
+
+def inner(a):
+    total = ap.analyse(lambda x1, x2: x1 + a * x2, x, base_samples=64, surrogate="off").total["x2"]
+    rows = np.random.default_rng(0).random((30, 2))
+    return float(total), len(ap.given_data(rows, rows[:, 0] ** 2).lead)
+
+outer = ap.Study(inner, {"a": (1, 2)}, outputs=["total", "rows"], vectorised=False, base_samples=8)
+assert outer.run(executor=executor).runs == 16
+"""
+
+
+@pytest.mark.parametrize("executor", ["None", "__import__('concurrent.futures').futures.ThreadPoolExecutor(2)"])
+def test_a_function_may_run_an_analysis_of_its_own(executor):
+    # In a process of its own: a run that waits for itself cannot be interrupted.
+    script = f"executor = {executor}\n{_NESTED}"
+    run = subprocess.run([sys.executable, "-W", "ignore", "-c", script], timeout=120, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr

@@ -182,3 +182,77 @@ def test_warnings_are_of_the_line_that_asks():
         with pytest.warns(ap.SensitivityWarning) as caught:
             ask()
         assert {warning.filename for warning in caught} == {__file__}
+
+
+def failing(a, b):
+    if a > 0.9:
+        raise ValueError(f"no root in {a}")
+    if b > 0.95:
+        raise ZeroDivisionError
+    return a + b, a * b
+
+
+@pytest.fixture(scope="module")
+def rich():
+    factors = {"a": ap.Uniform(0, 1, group="g"), "b": (0, 1)}
+    options = {"measures": ["delta"], "aggregate": True, "subsets": [["a", "b"]], "max_failed": 0.5, "outputs": ["y", "z"]}
+    with pytest.warns(ap.SensitivityWarning, match=r"most often ValueError \(\d+ runs\)"):
+        return ap.analyse(failing, factors, vectorised=False, base_samples=64, **options)
+
+
+def test_failures_are_counted_by_their_reasons(rich):
+    assert sum(rich["y"].failures.values()) == rich["y"].runs_failed > 0
+    assert next(iter(rich.failures)) == "ZeroDivisionError" and rich.failures == rich["y"].failures
+
+
+def test_frames_and_tables_have_what_the_text_has(rich):
+    pytest.importorskip("pandas")
+    frame = rich.to_frame()
+    assert list(frame.loc["y"].kind) == ["factor", "factor", "group", "subset"]
+    assert frame.loc[("all outputs", "a"), "total"] == rich.aggregate.total["a"].estimate
+    for column in ("interaction", "interaction_low", "probability_first", "probability_above_threshold", "delta"):
+        assert np.isfinite(frame.loc[("y", "a"), column])
+    y = rich["y"]
+    assert y.probability_first["a"] + y.probability_first["b"] == pytest.approx(1, abs=1e-3)
+    assert y.interaction["a"].estimate == y.total["a"].estimate - y.first_order["a"].estimate
+    for table in (rich.to_markdown(), rich.to_latex(), rich._repr_html_()):
+        assert table.count("all outputs") == 1 and "Measures of z" in table and "P(largest)" in table
+    words = ap._engine.in_words(*y.total["a"])
+    assert " ± " in words and words in str(rich) and words in rich.to_markdown() and words in y._repr_html_()
+    assert words.replace("±", r"$\pm$") in rich.to_latex() and "$S_T$" in rich.to_latex()
+    assert f"a: {words}" in repr(y.total)
+
+
+def test_tables_say_what_they_cut():
+    result = ap.analyse(lambda x: np.outer(x[:, 0], range(1, 7)), {f"x{k}": (0, 1) for k in range(40)}, base_samples=16, call="matrix")
+    assert "the 30 largest of 40" in result._repr_html_() and "2 more outputs" in result._repr_html_()
+    assert "x39" in result.to_markdown()
+
+
+def test_the_only_series_is_what_a_result_shows():
+    pytest.importorskip("matplotlib").use("Agg")
+    result = ap.analyse(lambda x1, x2: np.outer(x1, [1, 2, 3]) + x2[:, None], UNIT, outputs={"w": {"axis": "day"}}, base_samples=64)
+    assert dict(result.total) == dict(result.series["w"].total_of_all)
+    assert len(result.plot().lines) == 2 and "w as a whole" in result._repr_html_() and "w[0]" not in result._repr_html_()
+
+
+def test_charts_for_papers_are_files(result, tmp_path):
+    result.save(tmp_path, charts=["pdf", "png"], width="88mm")
+    kinds = {path.suffix for path in (tmp_path / "charts").iterdir()}
+    assert kinds == {".pdf", ".png"}
+    for wrong in ({"charts": ["gif"]}, {"width": "3 furlongs"}):
+        with pytest.raises(ap.StudyError):
+            result.save(tmp_path / "other", **wrong)
+    assert not (tmp_path / "other").exists()
+
+
+def test_all_kinds_of_results_warn_at_the_line_that_asks():
+    rng = np.random.default_rng(1)
+    y = rng.random(60)
+    y[:20] = -999
+    study = ap.Study(lambda x1, x2: np.where(x1 > 0.9, np.nan, x1), UNIT)
+    for ask in (lambda: ap.given_data(rng.random((60, 2)), y), lambda: study.screen(8)):
+        with pytest.warns(ap.SensitivityWarning) as caught:
+            document = ask()
+        assert {warning.filename for warning in caught} == {__file__}
+        assert [str(warning.message) for warning in caught] == list(dict.fromkeys(document.warnings))

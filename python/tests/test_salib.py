@@ -189,3 +189,24 @@ def test_arguments_that_are_not_there_or_out_of_range_are_named():
             g(np.array(values), **of)
     with pytest.raises(ValueError):
         g(np.array([[0.5, 0.5]]), a=[0, 1], alpha=0)
+
+
+def test_the_page_lists_what_is_refused():
+    from apportion.salib import _others
+
+    page = (Path(__file__).resolve().parents[2] / "docs/from-salib.md").read_text(encoding="utf-8")
+    assert [name for name in _others._INSTEAD if f"`{name}`" not in page] == []
+
+
+def test_a_constant_output_has_indices_of_0_and_problems_show_their_methods():
+    pytest.importorskip("matplotlib").use("Agg")
+    problem = salib.ProblemSpec({"names": ["a", "b"], "bounds": [[0, 1]] * 2, "outputs": ["u", "v"]})
+    assert {"sample_sobol", "analyze_morris", "evaluate"} < set(dir(problem))
+    problem.sample_sobol(64).evaluate(lambda x: np.column_stack([x.sum(axis=1), np.full(len(x), 2.0)]))
+    with pytest.warns(ap.SensitivityWarning, match="do not vary") as caught:
+        problem.analyze_sobol()
+    assert {warning.filename for warning in caught} == {__file__}
+    assert not problem.analysis["v"]["ST"].any() and problem.analysis["u"]["ST"].all()
+    axes = problem.heatmap()
+    assert axes.get_title() == "u" and np.array_equal(axes.images[0].get_array(), [problem.analysis["u"][key] for key in ("ST", "S1")])
+    assert problem.heatmap("v", "S1").images[0].get_array().shape == (1, 2)

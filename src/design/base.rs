@@ -10,6 +10,8 @@ use super::{DesignSettings, LatinHypercube, RandomPoints, Sampler, SobolSequence
 pub struct BasePoints {
     points: Points,
     factors: usize,
+    /// The columns that the coordinates of the points fill, in rising order: those of A and B but for constants.
+    varying: Vec<usize>,
     /// The columns of dependent factors.
     mixed: Option<Arc<MixedColumns>>,
 }
@@ -22,22 +24,35 @@ enum Points {
 }
 
 impl BasePoints {
-    /// Creates the points of `replicate` in `factors` columns for each of A and B, and the columns of dependent factors.
+    /// Creates the points of `replicate` in `factors` columns for each of A and B, of which `varying` have coordinates, and the
+    /// columns of dependent factors.
     pub(super) fn new(
         settings: &DesignSettings,
         replicate: u64,
         factors: usize,
+        varying: &[usize],
         mixed: Option<Arc<MixedColumns>>,
     ) -> Self {
         let length = settings.base_samples / settings.replicates;
-        Self { points: Points::new(settings, 2 * factors, length, replicate), factors, mixed }
+        let varying: Vec<usize> =
+            [0, factors].iter().flat_map(|first| varying.iter().map(move |j| first + j)).collect();
+        Self { points: Points::new(settings, varying.len(), length, replicate), factors, varying, mixed }
     }
 
     /// Writes the points `first`, `first + 1`, ... to `columns`, all of one length: one per dimension, or those of A
-    /// and B only; values in (0, 1).
+    /// and B only; values in (0, 1), 0.5 for constants.
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         let independent = (2 * self.factors).min(columns.len());
-        self.points.fill(first, &mut columns[..independent]);
+        if self.varying.len() == 2 * self.factors {
+            self.points.fill(first, &mut columns[..independent]);
+        } else {
+            columns[..independent].iter_mut().for_each(|column| column.fill(0.5));
+            let varying = self.varying.iter().filter(|column| **column < independent);
+            let mut filled: Vec<Vec<f64>> =
+                varying.clone().map(|column| std::mem::take(&mut columns[*column])).collect();
+            self.points.fill(first, &mut filled);
+            varying.zip(filled).for_each(|(column, values)| columns[*column] = values);
+        }
         if let Some(mixed) = &self.mixed {
             mixed.fill(columns, self.factors);
         }

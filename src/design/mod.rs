@@ -81,10 +81,14 @@ impl Design {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         let points = base_samples.div_ceil(replicates.max(1));
         let is_too_long = points > Design::MAX_POINTS;
+        let varying = rows.varying(factors).len();
         refuse([
             (factors == 0, DesignError::NoFactors),
             (factors > Design::MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
-            (sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2, DesignError::TooManyFactors { factors }),
+            (
+                sampler == Sampler::Sobol && varying > MAX_DIMENSIONS / 2,
+                DesignError::TooManyFactors { factors: varying },
+            ),
             (replicates == 0, DesignError::NoReplicates),
             (replicates > MAX_REPLICATES, DesignError::TooManyReplicates { replicates }),
         ])?;
@@ -215,7 +219,8 @@ impl Design {
     pub(crate) fn plain(&self, rows: u64) -> Result<Self, DesignError> {
         let each = 2 * self.settings.replicates;
         let settings = DesignSettings { base_samples: rows / each * each / 2, ..self.settings.clone() };
-        Self::new(settings, self.factors, Rows::default())
+        let constants = self.requested.constants.clone();
+        Self::new(settings, self.factors, Rows { constants, ..Rows::default() })
     }
 
     /// Returns the rows of one base point that are run, in the order in which rows are counted.
@@ -255,7 +260,8 @@ impl Design {
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, self.runs.mixed.clone())
+        let varying = self.requested.varying(self.factors);
+        BasePoints::new(&self.settings, replicate, self.factors, &varying, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of

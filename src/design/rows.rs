@@ -23,12 +23,19 @@ pub struct Rows {
     pub copula: Option<Arc<GaussianCopula>>,
     /// The swaps, by index, whose factors are drawn again given all others; the same for independent factors.
     pub redrawn: Vec<usize>,
+    /// The columns of constants, in rising order: they take no dimension of the points and no row.
+    pub constants: Vec<usize>,
 }
 
 impl Rows {
     /// Returns the rows AB_s of `swaps`, without rows BA.
     pub fn plain(swaps: Vec<Swap>) -> Self {
         Self { swaps, ..Self::default() }
+    }
+
+    /// Returns the columns that vary, of those of `factors` factors.
+    pub(super) fn varying(&self, factors: usize) -> Vec<usize> {
+        (0..factors).filter(|column| self.constants.binary_search(column).is_err()).collect()
     }
 }
 
@@ -104,9 +111,10 @@ impl Runs {
         let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, 2 * factors));
         let [a, b] = [(RowKind::A, Matrix::A, Matrix::B), (RowKind::B, Matrix::B, Matrix::A)]
             .map(|(kind, base, from)| Run::new(kind, base, Vec::new(), from));
-        let numbers = [&a, &b].map(|run| (key(factors, run.base, &[], run.from), Vec::new()));
+        let varying = rows.varying(factors);
+        let numbers = [&a, &b].map(|run| (key(&varying, run.base, &[], run.from), Vec::new()));
         let numbers = numbers.into_iter().zip(0..).collect();
-        let mut unique = Unique { factors, runs: vec![a, b], numbers, mixed };
+        let mut unique = Unique { factors, varying, runs: vec![a, b], numbers, mixed };
         let ab = unique.all_swapped(rows, RowKind::Ab, Matrix::A, Matrix::B);
         let ba = if rows.ba { unique.all_swapped(rows, RowKind::Ba, Matrix::B, Matrix::A) } else { Vec::new() };
         let Unique { runs, mixed, .. } = unique;
@@ -120,6 +128,7 @@ type Key = (Matrix, Matrix, Vec<usize>);
 /// Runs so far, and their indices by source.
 struct Unique {
     factors: usize,
+    varying: Vec<usize>,
     runs: Vec<Run>,
     /// Including the columns of dependent factors that follow others.
     numbers: BTreeMap<(Key, Vec<(usize, usize)>), usize>,
@@ -141,9 +150,10 @@ impl Unique {
         let mut columns = swap.clone();
         columns.sort_unstable();
         columns.dedup();
+        columns.retain(|column| self.varying.binary_search(column).is_ok());
         let [first, other] = [base, from].map(|matrix| self.factors * matrix.place());
         let mixed = self.mixed.as_mut().map(|mixed| mixed.of_row(&columns, redrawn, first, other)).unwrap_or_default();
-        let key = (key(self.factors, base, &columns, from), mixed.clone());
+        let key = (key(&self.varying, base, &columns, from), mixed.clone());
         let number = *self.numbers.entry(key).or_insert(self.runs.len());
         if number == self.runs.len() {
             self.runs.push(Run { mixed, ..Run::new(kind, base, columns, from) });
@@ -154,8 +164,8 @@ impl Unique {
 
 /// Returns the source of a row in a unique form: the matrix of most of its columns first, A before B if both have half,
 /// and a row of a single matrix with that matrix twice.
-fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
-    let (swapped, kept) = (columns.len(), factors - columns.len());
+fn key(varying: &[usize], base: Matrix, columns: &[usize], from: Matrix) -> Key {
+    let (swapped, kept) = (columns.len(), varying.len() - columns.len());
     if swapped == 0 {
         return (base, base, Vec::new());
     }
@@ -163,7 +173,7 @@ fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
         return (from, from, Vec::new());
     }
     if (swapped, base) > (kept, from) {
-        let complement = (0..factors).filter(|column| columns.binary_search(column).is_err()).collect();
+        let complement = varying.iter().copied().filter(|column| columns.binary_search(column).is_err()).collect();
         return (from, base, complement);
     }
     (base, from, columns.to_vec())

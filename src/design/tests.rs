@@ -151,3 +151,27 @@ fn rank(mut vectors: Vec<u16>) -> usize {
     }
     rank
 }
+
+#[test]
+fn constants_have_neither_rows_nor_dimensions() {
+    let swaps = |factors: [usize; 3]| [factors.map(|factor| vec![factor]).to_vec(), vec![vec![factors[0], factors[2]]]];
+    for sampler in Sampler::ALL {
+        let settings = DesignSettings { sampler, base_samples: 16, replicates: 2, seed: 3 };
+        let rows = |swaps| Rows { ba: true, second_order: true, ..Rows::plain(swaps) };
+        let fewer = Design::new(settings.clone(), 3, rows(swaps([0, 1, 2]).concat())).unwrap();
+        let mut with_constants = swaps([0, 2, 4]).concat();
+        with_constants.extend([vec![1], vec![1, 3], vec![0, 1]]);
+        let all = Rows { constants: vec![1, 3], ..rows(with_constants) };
+        let design = Design::new(settings, 5, all).unwrap();
+        assert_eq!((design.rows(), design.columns()), (fewer.rows(), 10));
+        // Swaps of constants are the rows A and B themselves.
+        assert_eq!((&design.ab_runs()[4..], &design.ba_runs()[4..6]), (&[0, 0, design.ab_runs()[0]][..], &[1, 1][..]));
+        for row in 0..design.rows() {
+            let (mut u, mut expected) = ([0.0; 5], [0.0; 3]);
+            design.point(row, &mut u);
+            fewer.point(row, &mut expected);
+            assert_eq!(u, [expected[0], 0.5, expected[1], 0.5, expected[2]]);
+        }
+        assert!(design.plain(16).unwrap().requested().constants == [1, 3]);
+    }
+}

@@ -71,6 +71,11 @@ impl Factor {
         &self.distribution
     }
 
+    /// Returns whether it has a single value.
+    pub fn is_constant(&self) -> bool {
+        matches!(self.distribution, Distribution::Constant(_))
+    }
+
     /// Formats `value`, which is in the factor's unit: the label of a category, otherwise the number by `number`.
     pub fn in_words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
         self.distribution.label(value).map_or_else(|| number(value), str::to_owned)
@@ -151,6 +156,11 @@ impl Space {
     /// Returns the index of the factor that is the noise of a stochastic model (with seeds as values), if there is one.
     pub fn noise(&self) -> Option<usize> {
         self.factors.iter().position(|factor| factor.distribution.is_noise())
+    }
+
+    /// Returns the indices of the constants, in rising order.
+    pub(crate) fn constants(&self) -> Vec<usize> {
+        (0..self.factors.len()).filter(|&factor| self.factors[factor].is_constant()).collect()
     }
 
     /// Returns the groups in order of first appearance.

@@ -3,7 +3,7 @@
 use super::Study;
 use crate::effect::Effect;
 use crate::model::Model;
-use crate::space::{Distribution, Group};
+use crate::space::Group;
 
 /// An effect with its name and its factors.
 pub(crate) struct StudyEffect {
@@ -43,10 +43,12 @@ impl Study {
     pub(crate) fn unread(&self, model: &dyn Model, output: usize) -> Vec<bool> {
         let mut unread = Vec::new();
         for effect in self.effects() {
-            unread.push(effect.factors.iter().all(|&factor| {
-                let law = self.space.factors()[factor].distribution();
-                matches!(law, Distribution::Constant(_)) || !model.reads(output, factor)
-            }));
+            unread.push(
+                effect
+                    .factors
+                    .iter()
+                    .all(|&factor| self.space.factors()[factor].is_constant() || !model.reads(output, factor)),
+            );
         }
         unread
     }

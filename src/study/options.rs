@@ -294,7 +294,7 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
     }
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
-    Rows { swaps, ba, second_order, copula, redrawn }
+    Rows { swaps, ba, second_order, copula, redrawn, constants: space.constants() }
 }
 
 #[cfg(test)]

@@ -280,7 +280,8 @@ impl Length {
             });
         };
         if plain.is_some() && runs <= MAX_PLAIN_ROWS {
-            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * factors as u64);
+            let varying = factors - space.constants().len();
+            let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * varying as u64);
             if runs < fewest {
                 let expected =
                     format!("{fewest} or more: fewer tell only which factors have no effect (`apportion screen`)");

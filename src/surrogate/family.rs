@@ -27,8 +27,8 @@ impl Family {
     /// Returns the family of a factor with this distribution.
     pub fn new(distribution: &Distribution) -> Self {
         match distribution {
-            // No output is smooth in a seed: no polynomials at all.
-            Distribution::Seed(_) => Self::Column(Box::default()),
+            // No output is smooth in a seed, and a constant does not vary: no polynomials at all.
+            Distribution::Seed(_) | Distribution::Constant(_) => Self::Column(Box::default()),
             // Smooth in the logarithm, which is uniform.
             Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
             Distribution::Normal(_) => Self::Hermite,

@@ -1,6 +1,6 @@
 //! How precise indices are: the half widths of their intervals.
 
-use apportion::result::OutputResult;
+use apportion::result::{OutputResult, StopReason, StoppingRecord};
 
 use super::format::{PrintedEstimate, grouped, two_digits};
 use super::output_view::{OutputView, effects};
@@ -8,11 +8,7 @@ use super::output_view::{OutputView, effects};
 /// States the precision of the indices, and the number of runs.
 pub(super) fn precision_sentence(view: &OutputView<'_>) -> String {
     let widest = widest_interval(view);
-    let target = match view.result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
-        Some(true) => "; the target is met",
-        Some(false) => "; the target is not met",
-        None => "",
-    };
+    let target = target(view.result.stopping.as_ref());
     let runs = grouped(view.result.provenance.model_runs);
     match widest {
         None => format!("The study took {runs} model runs; the error of the indices is unknown{target}."),
@@ -21,6 +17,21 @@ pub(super) fn precision_sentence(view: &OutputView<'_>) -> String {
             format!("After {runs} model runs {which} is known to ± {} or better{target}.", two_digits(widest))
         }
         Some(_) => format!("After {runs} model runs the intervals are too wide to determine the indices{target}."),
+    }
+}
+
+/// States whether the target is met, or what the precision does not show.
+fn target(stopping: Option<&StoppingRecord>) -> String {
+    let Some(StoppingRecord { target_met: Some(is_met), target_half_width, reason, .. }) = stopping else {
+        return String::new();
+    };
+    match (is_met, reason, target_half_width) {
+        (true, ..) => "; the target is met".to_owned(),
+        (false, StopReason::RareLevels { .. }, _) => {
+            ", but a level of a factor is in too few rows to rely on it".to_owned()
+        }
+        (false, _, Some(target)) => format!("; the target of {target} is not met"),
+        (false, ..) => "; the target is not met".to_owned(),
     }
 }
 

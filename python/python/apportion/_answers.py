@@ -47,6 +47,9 @@ def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | Non
         if not vectorised:
             raise NoAnswer("the function returned None")
         raise AnswerError(f"the function returned None for {rows} rows: expected an array, a tuple of arrays or a dict")
+    if not vectorised and hasattr(answer, "to_frame") and hasattr(answer, "to_dict") and all(isinstance(label, str) for label in answer.index):
+        # The labels of a Series for one row are the names of the outputs.
+        answer = answer.to_dict()
     table = named(answer, "the function returned", AnswerError)
     if table is not None:
         names = list(expected) if expected is not None and sorted(expected) == sorted(table) else list(table)

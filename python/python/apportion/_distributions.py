@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import numbers
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -36,13 +37,15 @@ class Factor:
 
     @classmethod
     def of(cls, value: Any) -> "Factor":
-        """A factor from a factor, a mapping of keys, a pair (min, max) or a distribution of SciPy."""
+        """A factor from a factor, a mapping of keys, a pair (min, max), a distribution of SciPy, or a number, which is a constant."""
         if isinstance(value, Factor):
             return value
         if isinstance(value, Mapping):
             return cls(value)
         if hasattr(value, "ppf") or hasattr(value, "icdf"):
             return from_scipy(value)
+        if isinstance(value, numbers.Real) and not isinstance(value, bool):
+            return cls({"distribution": "constant", "value": float(value)})
         if isinstance(value, (tuple, list, np.ndarray)) and np.shape(value) == (2,):
             return Uniform(*value)
         raise StudyError(f"{value!r} is not a factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
@@ -251,10 +254,10 @@ class _Quantile:
         if not hasattr(self.distribution, "dist"):
             return type(self.distribution).__module__, type(self.distribution).__qualname__, repr(self.distribution)
         dist, of = self.distribution.dist, type(self.distribution.dist)
-        parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
-        made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}
+        parameters = {**getattr(dist, "_updated_ctor_param", dict)(), **self.distribution.kwds}
+        made = sorted(item for item in parameters.items() if item[0] not in ("seed", "longname", "extradoc"))
         own = () if of.__module__.startswith("scipy.") else [vars(of).get(name) for name in ("_ppf", "_cdf", "_pdf", "_pmf")]
-        return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
+        return of.__module__, of.__qualname__, dist.name, self.distribution.args, *made, *own
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
         quantile = self.distribution.icdf if hasattr(self.distribution, "icdf") else self.distribution.ppf

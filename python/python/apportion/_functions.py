@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ._answers import Answer, AnswerError, NoAnswer, expanded, read
 from ._engine import StudyError
-from ._fingerprint import constant, fingerprint, holdings
+from ._identity import identity_of
 from ._signatures import STYLES, style_of
 
 
@@ -44,8 +44,6 @@ class Call:
         self.outputs = list(outputs) if outputs is not None else None
         self.lengths = dict(lengths or {})
         self.quantiles = dict(quantiles)
-        # Where it holds what its calls change, such as counters: nothing that tells it from another function.
-        self._changing: set[str] = set()
 
     def rows(self, x: np.ndarray) -> np.ndarray:
         """The values that the function gets for rows of the engine: the same, except for factors by their quantile functions."""
@@ -57,14 +55,9 @@ class Call:
 
     def probe(self, rows: np.ndarray) -> np.ndarray:
         """The outputs of `rows`, which must answer and show the names of the outputs."""
-        before = self._held()
-        try:
-            answer = self._answer(rows)
-        finally:
-            held = self._held()
-            self._changing |= {path for path in {**before, **held} if before.get(path) != held.get(path)}
+        answer = self._answer(rows)
         if self.outputs is None:
-            self.outputs = answer.names or ["y"] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
+            self.outputs = answer.names or [unnamed(self.names)] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
         if self.lengths or answer.lengths or len(self.outputs) == 1 < answer.width:
             self._learn_lengths(answer)
         self._check(answer)
@@ -158,12 +151,14 @@ class Call:
             what = "values" if self.lengths else "outputs"
             raise AnswerError(f"the function returned {answer.width} {what}, and {len(self.columns)} were expected: {expected}")
 
-    def _held(self) -> dict[str, str]:
-        return holdings(self.function, [(self.names[place], quantile) for place, quantile in self.quantiles.items()])
+    def identity(self, version: str | None) -> str:
+        """Identifies this function in journals: see `identity_of`."""
+        return identity_of(self.function, self.quantiles.values(), version)
 
-    def fingerprint(self) -> str:
-        """Identifies this function by its code and the values that it holds, without the functions that it calls by name."""
-        return fingerprint(self.function, constant(self._held(), self._changing))
+
+def unnamed(factors: Collection[str]) -> str:
+    """The name of the only output of a function that does not name it."""
+    return "output" if "y" in factors else "y"
 
 
 def reason_of(error: BaseException) -> str:

@@ -14,6 +14,7 @@ from ._engine import StudyError
 from ._result import Document
 from ._study import Study
 from ._tables import named, numbers, series_name
+from ._warnings import warn
 
 
 def given_data(
@@ -30,16 +31,30 @@ def given_data(
     `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s or named `Series`, or arrays of
     (rows, columns). `factors` tells the distributions to the surrogate, which also gives total indices. `measures`
     adds Borgonovo's delta, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
-    A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
+    Rows without an output (NaN, masked, missing) are left out, with a warning that counts them; texts of an input are categories.
+    A `StudyError` names another column that holds no numbers, or an input without a value.
     """
-    x, y = _table(inputs, "x", "the inputs"), _table(outputs, "y", "the outputs")
+    x, y = _table(_coded(inputs), "x", "the inputs"), _table(outputs, "y", "the outputs")
+    known = ~np.isnan(y[1]).any(axis=1)
+    if len(x[1]) == len(known) and known.any() and not known.all():
+        warn(f"{np.count_nonzero(~known)} of {len(known)} rows have no output and are left out: indices are those of the other rows")
+        x, y = (x[0], x[1][known]), (y[0], y[1][known])
     seed = whole("seed", seed, 0, MAX_SEED)
     digest = hashlib.sha256(x[1].tobytes() + y[1].tobytes()).hexdigest()
     study = None if factors is None else Study(None, factors)._study
     document = _engine.given_data(
         x, y, measures=measures, distributions=study, seed=seed, name=name, sha256=digest
     )
-    return Document(document)
+    return Document(document).warned()
+
+
+def _coded(data: Any) -> Any:
+    """The columns of inputs by their names, texts as numbers of their categories."""
+    if not isinstance(data, Mapping) and not hasattr(data, "columns"):
+        return data
+    columns = {name: np.asarray(data[name]) for name in getattr(data, "column_names", getattr(data, "columns", data))}
+    of_texts = [name for name, column in columns.items() if all(isinstance(value, str) for value in column.ravel().tolist())]
+    return {**columns, **{name: np.unique(columns[name].astype(str), return_inverse=True)[1] for name in of_texts}} if of_texts else data
 
 
 def _table(data: Any, letter: str, what: str) -> tuple[list[str], np.ndarray]:

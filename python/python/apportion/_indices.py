@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import html
+import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from . import _engine
 
 # Rows of a table that stand in a notebook.
 _ROWS = 30
@@ -73,9 +77,19 @@ class Index(_Bounds):
 class Shown:
     """Something with indices: its tables and charts, in notebooks too."""
 
-    def _tables(self) -> dict[str, dict[str, "Indices"]]:
-        """Indices by their labels, of each table by its caption."""
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
+        """The columns of each table by their labels, by its caption: indices or probabilities; none where there are no indices."""
         raise NotImplementedError
+
+    def _cells(self, most: int) -> Iterator[tuple[str, list[str], list[list[str]]]]:
+        """Caption, head and rows of each table, of at most so many rows."""
+        for caption, shown in self._tables().items():
+            first = shown.get("S_T", next(iter(shown.values()), {}))
+            names = sorted(first, key=lambda name: -float(first[name]))
+            if len(names) > most:
+                caption = f"{caption}: the {most} largest of {len(names)}"
+            rows = [[_label(name), *(_words(of[name]) if name in of else "" for of in shown.values())] for name in names[:most]]
+            yield caption, ["", *shown], rows
 
     def to_frame(self) -> Any:
         """The indices as a `pandas.DataFrame`."""
@@ -86,33 +100,56 @@ class Shown:
         needed("xarray", "to_xarray")
         return self.to_frame().to_xarray()
 
+    def to_markdown(self) -> str:
+        """The indices with the half widths of their 95 % intervals, as tables of Markdown."""
+        tables = []
+        for caption, head, rows in self._cells(sys.maxsize):
+            lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows] if rows else []
+            tables.append("\n".join([caption, "", *(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines)]))
+        return "\n\n".join(tables)
+
+    def to_latex(self) -> str:
+        """The indices with the half widths of their 95 % intervals, as tables of LaTeX."""
+        tables = []
+        for caption, head, rows in self._cells(sys.maxsize):
+            lines = [f"{' & '.join(map(_latex, row))} \\\\" for row in (head, *rows)]
+            body = [f"\\begin{{tabular}}{{l{'r' * (len(head) - 1)}}}", lines[0], "\\hline", *lines[1:], "\\end{tabular}"]
+            tables.append("\n".join([f"% {caption}", *(body if rows else [])]))
+        return "\n\n".join(tables)
+
     def plot(self, ax: Any = None) -> Any:
         """Bars of the indices with their intervals, on `ax` of matplotlib; returns the axes."""
         return bars(ax, *next(iter(self._tables().items())))
 
     def _repr_html_(self) -> str:
         tables = []
-        for caption, shown in self._tables().items():
-            of = list(shown.values())
-            first = shown.get("total", of[0] if of else Indices({}))
-            names = sorted(first, key=lambda name: -first[name].estimate)[:_ROWS]
-            head = "".join(f"<th>{html.escape(label)}</th>" for label in shown)
-            rows = (
-                f"<tr><th>{html.escape(_label(name))}</th>{''.join(f'<td>{_words(indices[name])}</td>' for indices in of)}</tr>"
-                for name in names
-            )
-            caption = f"<caption>{html.escape(caption)}, with 95 % intervals</caption>"
-            tables.append(f"<table>{caption}<tr><th></th>{head}</tr>{''.join(rows)}</table>" if names else "")
+        for caption, head, rows in self._cells(_ROWS):
+            lines = ["".join(f"<{tag}>{html.escape(cell)}</{tag}>" for tag, cell in zip(_TAGS, row)) for row in rows]
+            heads = "".join(f"<th>{html.escape(cell)}</th>" for cell in head)
+            body = "".join(f"<tr>{line}</tr>" for line in (heads, *lines))
+            caption = html.escape(caption)
+            tables.append(f"<table><caption>{caption}</caption>{body}</table>" if rows else f"<p>{caption}</p>")
         return "".join(tables)
+
+
+# Of the cells of a row.
+_TAGS = ("th", *["td"] * 64)
 
 
 def _label(name: Any) -> str:
     return ", ".join(name) if isinstance(name, tuple) else str(name)
 
 
-def _words(index: Index) -> str:
-    bounds = "" if np.isnan(index.low) else f" [{index.low:.4f}, {index.high:.4f}]"
-    return f"{index.estimate:.4f}{bounds}"
+def _words(value: Any) -> str:
+    """An index or a probability, as in the text of a result."""
+    if isinstance(value, Index):
+        return _engine.in_words(*value)
+    return "< 0.001" if value < 0.001 else "> 0.999" if value > 0.999 else f"{value:.3f}"
+
+
+def _latex(cell: str) -> str:
+    cell = re.sub(r"([&%#_{}$])", r"\\\1", cell.replace("\\", " ")).replace("−", "$-$")
+    return re.sub(r"([±<>])", lambda sign: {"±": r"$\pm$"}.get(sign[0], f"${sign[0]}$"), re.sub(r"\bS\\_(\w)", r"$S_\1$", cell))
 
 
 class Indices(Shown, Mapping[str, Index]):
@@ -141,8 +178,7 @@ class Indices(Shown, Mapping[str, Index]):
         return self.estimates if dtype is None else self.estimates.astype(dtype)
 
     def __repr__(self) -> str:
-        lines = (f"{name}: {index.estimate:.4g} [{index.low:.4g}, {index.high:.4g}]" for name, index in self._entries.items())
-        return "\n".join(lines)
+        return "\n".join(f"{_label(name)}: {_words(index)}" for name, index in self._entries.items())
 
     @property
     def names(self) -> list[Any]:
@@ -176,8 +212,8 @@ class Indices(Shown, Mapping[str, Index]):
         )
         return pandas.DataFrame({"estimate": self.estimates, "low": self.low, "high": self.high}, index=index)
 
-    def _tables(self) -> dict[str, dict[str, Indices]]:
-        return {"index": {"": self}}
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
+        return {"index": {"index": self}}
 
     def _column(self, place: int) -> np.ndarray:
         return np.array([index[place] for index in self._entries.values()], dtype=float)
@@ -188,11 +224,23 @@ def _turned(name: Any) -> Any:
     return name[::-1] if isinstance(name, tuple) and len(name) == 2 else name
 
 
+_KINDS = ("first_order", "total", "interaction")
+_PROBABILITIES = ("probability_first", "probability_above_threshold")
+# What is not known of several outputs together.
+_TOGETHER = {"unit": "1", "mean": np.nan, "variance": np.nan, "runs_failed": 0, "warnings": [], "second_order": [], "noise": None}
+
+
+def together(name: str, record: Mapping[str, Any]) -> OutputResult:
+    """The indices of several outputs together."""
+    return OutputResult({**_TOGETHER, **record, "name": name, "noise": None})
+
+
 class OutputResult(Shown):
     """The indices of one output."""
 
-    def __init__(self, record: Mapping[str, Any]):
+    def __init__(self, record: Mapping[str, Any], threshold: float = 0.05):
         self.record = record
+        self.threshold = threshold
 
     def __repr__(self) -> str:
         return f"<output {self.name}: first-order\n{self.first_order}\ntotal\n{self.total}>"
@@ -219,8 +267,19 @@ class OutputResult(Shown):
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about the indices."""
-        return [warning["text"] for warning in self.record["warnings"]]
+        """Warnings about the indices; of failed runs with the commonest exception."""
+        kinds: dict[str, int] = {}
+        for reason, runs in self.failures.items():
+            kinds[reason.split(":")[0]] = kinds.get(reason.split(":")[0], 0) + runs
+        commonest = max(kinds, key=lambda kind: kinds[kind], default="")
+        why = f"; most often {commonest} ({kinds[commonest]} runs)" if kinds else ""
+        return [of["text"] + why * (of["code"] == "runs-failed") for of in self.record["warnings"]]
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """How many runs failed, by their reasons, the commonest first."""
+        runs = {of["reason"]: of["runs"] for of in self.record.get("failures", [])}
+        return dict(sorted(runs.items(), key=lambda item: -item[1]))
 
     @property
     def reason(self) -> str | None:
@@ -237,6 +296,21 @@ class OutputResult(Shown):
     def total(self) -> Indices:
         """Total indices ST of the factors."""
         return self._indices("indices", "total")
+
+    @property
+    def interaction(self) -> Indices:
+        """S_T - S_1 of the factors; empty where they depend on each other."""
+        return self._indices("indices", "interaction")
+
+    @property
+    def probability_first(self) -> dict[str, float]:
+        """The probability of each factor that its total index is the largest, P(largest)."""
+        return self._numbers("probability_first")
+
+    @property
+    def probability_above_threshold(self) -> dict[str, float]:
+        """The probability of each factor that its total index is above the `threshold` of the study, P(S_T > t)."""
+        return self._numbers("probability_above_threshold")
 
     @property
     def shapley(self) -> Indices:
@@ -281,28 +355,42 @@ class OutputResult(Shown):
         return Indices({record["factor"]: Index.of(record[kind]) for record in records if record[kind] is not None})
 
     def _indices(self, of: str, kind: str) -> Indices:
-        if kind not in ("first_order", "total"):
+        if kind not in _KINDS:
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
-        records = self.record[of] or []
+        records = [record for record in self.record.get(of) or [] if record.get(kind) is not None]
         names = [tuple(record["factors"]) if of == "subsets" else record["factor"] for record in records]
         return Indices(dict(zip(names, (Index.of(record[kind]) for record in records))))
 
+    def _numbers(self, key: str) -> dict[str, float]:
+        return {of["factor"]: of[key] for of in self.record["indices"] or [] if of.get(key) is not None}
+
     def to_frame(self) -> Any:
-        """A row per factor, as a `pandas.DataFrame`."""
+        """A row per factor, and per group and subset if there are some, whose `kind` then tells them apart, as a
+        `pandas.DataFrame`: indices with the ends of their intervals, probabilities and measures."""
         pandas = needed("pandas", "to_frame")
-        columns: dict[str, Any] = {}
-        kinds = {"first_order": self.first_order, "total": self.total, "shapley": self.shapley}
-        for kind, indices in ((kind, indices) for kind, indices in kinds.items() if len(indices) or kind != "shapley"):
-            columns |= {kind: np.asarray(indices), f"{kind}_low": indices.low, f"{kind}_high": indices.high}
-        return pandas.DataFrame(columns, index=pandas.Index(self.first_order.names, name="factor"))
+        rows: dict[str, dict[str, Any]] = {}
+        has_kinds = bool(self.record.get("groups") or self.record.get("subsets"))
+        for of, name in {"indices": "factor", "groups": "group", "subsets": "subset"}.items():
+            for record in self.record.get(of) or []:
+                row: dict[str, Any] = {"kind": name} if has_kinds else {}
+                shown = {kind: Index.of(record[kind]) for kind in (*_KINDS, "shapley") if record.get(kind) is not None}
+                measures = self.measures if of == "indices" else {}
+                shown |= {kind: of_all[record["factor"]] for kind, of_all in measures.items() if record["factor"] in of_all}
+                for kind, index in shown.items():
+                    row |= {kind: index.estimate, f"{kind}_low": index.low, f"{kind}_high": index.high}
+                rows[record["factor"]] = row | {key: record[key] for key in _PROBABILITIES if record.get(key) is not None}
+        return pandas.DataFrame(list(rows.values()), index=pandas.Index(list(rows), name="factor", dtype=object))
 
     def to_xarray(self) -> Any:
         """The indices as an `xarray.Dataset` over factor and bound (estimate, low, high)."""
         return dataset([self], "output", [self.name]).isel(output=0)
 
-    def _tables(self) -> dict[str, dict[str, Indices]]:
-        shown = {"first-order": self.first_order, "total": self.total, "Shapley effect": self.shapley}
-        return {f"Sobol' indices of {self.name}": {label: indices for label, indices in shown.items() if len(indices)}}
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
+        shown: dict[str, Mapping[Any, Any]] = {"S_1": self.first_order, "S_T": self.total, "S_T − S_1": self.interaction}
+        shown |= {"P(largest)": self.probability_first, f"P(S_T > {self.threshold:g})": self.probability_above_threshold}
+        shown = {label: of for label, of in {**shown, "Shapley effect": self.shapley}.items() if of}
+        tables = {f"Sobol' indices of {self.name}" + f": {self.reason}" * (not shown): shown}
+        return tables | ({f"Measures of {self.name}": dict(self.measures)} if self.measures else {})
 
 
 class SeriesResult(Shown):
@@ -364,10 +452,8 @@ class SeriesResult(Shown):
         """The indices as an `xarray.Dataset` over the axis, factor and bound (estimate, low, high)."""
         return dataset(self.values, self.axis, self.positions)
 
-    def _tables(self) -> dict[str, dict[str, Indices]]:
-        return {
-            f"Sobol' indices of {self.name} as a whole": {"first-order": self.first_order_of_all, "total": self.total_of_all}
-        }
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
+        return together(f"{self.name} as a whole", self.record)._tables()
 
     def plot(self, kind: str = "total", ax: Any = None) -> Any:  # type: ignore[override]
         """Lines of the "first_order" or "total" indices against the axis with their intervals; returns the axes of matplotlib."""
@@ -402,8 +488,9 @@ def _of_factors(records: Any, kind: str) -> Indices:
     return Indices({record["factor"]: Index.of(record[kind]) for record in records or []})
 
 
-def bars(ax: Any, caption: str, shown: Mapping[str, Indices]) -> Any:
+def bars(ax: Any, caption: str, columns: Mapping[str, Mapping[Any, Any]]) -> Any:
     """Bars of indices by their labels, on the axes or new ones."""
+    shown = {label: of for label, of in columns.items() if isinstance(of, Indices) and label != "S_T − S_1"}
     names = next((indices.names for indices in shown.values()), [])
     ax = axes(ax, (6.0, 0.45 * len(names) + 1.2))
     places, height = np.arange(len(names)), 0.76 / max(len(shown), 1)

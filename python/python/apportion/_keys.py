@@ -1,10 +1,10 @@
-"""The tables of a study file, from keywords."""
+"""Keywords, and the tables of a study file that they make."""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 
@@ -12,29 +12,86 @@ from ._distributions import Factor
 from ._engine import StudyError
 from ._toml import value_of
 
-# Keys of `Study` by the table of the study file that they belong to.
-DESIGN = ("sampler", "base_samples", "runs", "replicates", "seed", "max_runs", "max_time")
-ANALYSIS = (
-    "estimators",
-    "second_order",
-    "subsets",
-    "indices_of",
-    "shapley",
-    "measures",
-    "aggregate",
-    "dummy",
-    "convergence",
-    "intervals",
-    "surrogate",
-    "resamples",
-    "threshold",
-    "failures",
-    "max_failed",
-)
+Sampler = Literal["sobol", "random", "latin-hypercube"]
+IndicesOf = Literal["factors", "groups"]
+Intervals = Literal["nets", "replicates", "batches", "delta", "percentile"]
+Surrogate = Literal["auto", "on", "off"]
+Failures = Literal["drop-block", "fail"]
+Measure = Literal["delta", "pawn_median", "pawn_max", "r2_hsic", "fourier"]
+Style = Literal["columns", "keywords", "matrix"]
+Resume = Literal["if-there", "require", "retry-failed", "never"]
+Estimator = Literal[
+    "default",
+    "sobol-1993",
+    "homma-saltelli",
+    "saltelli-2002",
+    "sobol-2007",
+    "saltelli-2010",
+    "jansen",
+    "janon-monod",
+    "martinez",
+    "glen-isaacs",
+    "azzini",
+]
 
 
-# Tables of the study file that are keywords themselves.
-TABLES = ("afm", "function", "expression", "fidelity", "dependence")
+class DesignOptions(TypedDict, total=False):
+    """Keys of the table `[design]` of a study file."""
+
+    sampler: Sampler | None
+    base_samples: int | None
+    runs: int | None
+    replicates: int | None
+    seed: int | np.random.Generator | None
+    max_runs: int | None
+    max_time: float | None
+
+
+class AnalysisOptions(TypedDict, total=False):
+    """Keys of the table `[analysis]`."""
+
+    estimators: Sequence[Estimator] | None
+    second_order: bool | None
+    subsets: Sequence[Sequence[str]] | None
+    indices_of: IndicesOf | None
+    shapley: bool | None
+    measures: Sequence[Measure] | None
+    aggregate: bool | None
+    dummy: bool | None
+    convergence: bool | None
+    intervals: Intervals | None
+    surrogate: Surrogate | None
+    resamples: int | None
+    threshold: float | None
+    failures: Failures | None
+    max_failed: float | None
+
+
+class TableOptions(TypedDict, total=False):
+    """Tables and keys of the study file that are keywords themselves."""
+
+    name: str
+    title: str | None
+    accuracy: float | None
+    smallest_region: float | None
+    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | Any
+    noise: str | Mapping[str, Any] | None
+    afm: Mapping[str, Any] | None
+    function: Mapping[str, Any] | None
+    expression: Mapping[str, Any] | None
+    fidelity: Mapping[str, Any] | None
+
+
+class StudyOptions(DesignOptions, AnalysisOptions, TableOptions, total=False):
+    """Keywords of `Study`; `analyse` has their meaning."""
+
+    outputs: Sequence[str] | Mapping[str, Any] | str | None
+    vectorised: bool
+    vectorized: bool | None
+    call: Style | None
+    version: str | None
+
+
 # Keywords of a run, which `analyse` takes too.
 RUN = ("threads", "executor", "in_flight", "journal", "resume", "progress")
 # What other packages call them.
@@ -110,11 +167,18 @@ def dependence_tables(asked: Any, factors: Mapping[str, Factor]) -> list[dict[st
         return []
     if isinstance(asked, Mapping) and "factors" in asked:
         asked = [asked]
+    elif np.ndim(asked) == 2 and hasattr(asked, "__array__"):
+        matrix = np.array(asked, dtype=float)
+        # Those of np.corrcoef and of pandas are rounded.
+        if matrix.shape[0] == matrix.shape[1] and np.allclose(matrix, matrix.T) and np.allclose(np.diag(matrix), 1.0):
+            matrix = (matrix + matrix.T) / 2
+            np.fill_diagonal(matrix, 1.0)
+        asked = [{"factors": list(map(str, getattr(asked, "columns", factors))), "correlation": matrix}]
     elif isinstance(asked, Mapping):
         asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
     if not isinstance(asked, (list, tuple)) or not all(isinstance(table, Mapping) for table in asked):
         raise StudyError(
-            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, or a list of tables'
+            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, a matrix of all, or a list of tables'
         )
     tables = [dict(table) for table in asked]
     for table in tables:

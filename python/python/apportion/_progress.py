@@ -17,6 +17,9 @@ def say(line: str) -> None:
         print(line, file=sys.stderr)
 
 
+_SECONDS_OF_A_LINE = 60.0
+
+
 class Progress:
     """Reports the progress of a run."""
 
@@ -31,8 +34,7 @@ class Progress:
 
                 self.make = tqdm
             except ImportError:
-                if asked is True:
-                    raise ImportError("progress=True needs tqdm: pip install tqdm") from None
+                self.make = _Lines
 
     @property
     def callback(self) -> Callable[[int, int, int, int], None] | None:
@@ -46,6 +48,8 @@ class Progress:
             return
         if self.bar is None:
             self.bar = self.make(total=total, desc=self.name, unit="run", unit_scale=True)
+            # Of the run.
+            self.bar.start_t = time.time() - (time.monotonic() - self.begun)
         self.bar.total = total
         self.bar.update(done - self.bar.n)
 
@@ -55,6 +59,25 @@ class Progress:
     def __exit__(self, *_: object) -> None:
         if self.bar is not None:
             self.bar.close()
+
+
+class _Lines:
+    """A line a minute, with the interface of a bar of tqdm."""
+
+    def __init__(self, total: int, desc: str, **_: Any):
+        self.total, self.desc, self.n = total, desc, 0
+        self.start_t = self.said = time.time()
+
+    def update(self, runs: int) -> None:
+        self.n += runs
+        now = time.time()
+        if now - self.said >= _SECONDS_OF_A_LINE and self.n:
+            left = (self.total - self.n) * (now - self.start_t) / self.n / 60.0
+            self.said = now
+            say(f"{self.desc}: {self.n} of {self.total} runs, about {left:.1f} minutes left")
+
+    def close(self) -> None:
+        pass
 
 
 def _is_watched() -> bool:

@@ -114,9 +114,9 @@ class RepeatedCall:
             first.setdefault(place % len(rows), reason)
         return np.column_stack(own), sorted(first.items())
 
-    def fingerprint(self) -> str:
+    def identity(self, version: str | None) -> str:
         """Identifies this function and the number of calls."""
-        return f"{self.call.fingerprint()} {self.repetitions} times"
+        return f"{self.call.identity(version)} {self.repetitions} times"
 
 
 def _seeds(seeds: np.ndarray, numbers: np.ndarray) -> np.ndarray:

@@ -7,14 +7,15 @@ import html
 import io
 import json
 import os
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
 from . import _engine
-from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, axes, bars, dataset, needed
+from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, axes, bars, dataset, needed, together
+from ._warnings import warn
 
 _Document = TypeVar("_Document", bound="Document")
 # Outputs whose indices stand in a notebook.
@@ -22,7 +23,7 @@ _OUTPUTS = 4
 # Columns of text, whatever their content.
 _TEXTS = ("output", "factor", "input", "unit", "output_unit", "failure")
 # What is shown of screenings and of given data, by the columns of their tables.
-_SHOWN = {"mu_star": "mu*", "sigma": "sigma", "first_order": "first-order", "surrogate_total": "total"}
+_SHOWN = {"mu_star": "mu*", "sigma": "sigma", "first_order": "S_1", "surrogate_total": "S_T"}
 
 
 class Document(Shown):
@@ -108,7 +109,7 @@ class Document(Shown):
         ax.legend()
         return ax
 
-    def _tables(self) -> dict[str, dict[str, Indices]]:
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
         tables: dict[str, dict[str, dict[str, Index]]] = {}
         for row in (row for rows in self.tables().values() for row in rows):
             of = tables.setdefault(row["output"], {})
@@ -118,9 +119,31 @@ class Document(Shown):
                     of.setdefault(label, {})[row.get("factor") or row["input"]] = index
         return {output: {label: Indices(of) for label, of in shown.items()} for output, shown in tables.items()}
 
-    def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes the page, JSON, CSV and charts to `folder`, and returns the path of the page."""
-        return Path(self._document.save(os.fspath(folder)))
+    @property
+    def warnings(self) -> list[str]:
+        """What a careful reader should know, of all outputs."""
+        record = self.to_dict()
+        return [*record.get("warnings", []), *(text for of in record.get("outputs", []) for text in of["warnings"])]
+
+    def warned(self: _Document) -> _Document:
+        """The document, with every warning of it warned of."""
+        warn(*self.warnings)
+        return self
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """How many runs failed, by their reasons, the commonest first; of an output alone, see there."""
+        runs: dict[str, int] = {}
+        for of in (of for output in self.to_dict().get("outputs", []) for of in output.get("failures", [])):
+            runs[of["reason"]] = max(of["runs"], runs.get(of["reason"], 0))
+        return dict(sorted(runs.items(), key=lambda item: -item[1]))
+
+    def save(
+        self, folder: str | os.PathLike[str], *, charts: Sequence[Literal["svg", "png", "pdf"]] = ("svg",), width: str | None = None
+    ) -> Path:
+        """Writes the page, JSON, CSV and charts to `folder`, and returns the path of the page. For papers the `charts` may also be
+        "png" and "pdf", of the `width` of a column such as "88mm"."""
+        return Path(self._document.save(os.fspath(folder), list(charts), width))
 
 
 class Result(Document):
@@ -132,7 +155,14 @@ class Result(Document):
     @property
     def outputs(self) -> dict[str, OutputResult]:
         """Every output, by name."""
-        return {record["name"]: OutputResult(record) for record in self.to_dict()["outputs"]}
+        threshold = self.to_dict()["provenance"]["threshold"]
+        return {record["name"]: OutputResult(record, threshold) for record in self.to_dict()["outputs"]}
+
+    @property
+    def aggregate(self) -> OutputResult | None:
+        """The indices of all outputs together, with `aggregate=True`."""
+        record = self.to_dict()["aggregate"]
+        return record and together("all outputs", record)
 
     @property
     def series(self) -> dict[str, SeriesResult]:
@@ -157,12 +187,22 @@ class Result(Document):
     def __contains__(self, output: object) -> bool:
         return output in self.outputs
 
-    def _tables(self) -> dict[str, dict[str, Indices]]:
-        outputs = list(self.outputs.values())[:_OUTPUTS]
-        return {caption: shown for output in outputs for caption, shown in output._tables().items()}
+    def _tables(self) -> dict[str, dict[str, Mapping[Any, Any]]]:
+        series = list(self.series.values())
+        of_series = {value.name for of in series for value in of.values}
+        alone = [output for name, output in self.outputs.items() if name not in of_series]
+        parts = [*([self.aggregate] if self.aggregate else []), *series, *alone[:_OUTPUTS]]
+        tables = {caption: shown for part in parts for caption, shown in part._tables().items()}
+        return tables | ({f"{len(alone) - _OUTPUTS} more outputs: result[name]": {}} if len(alone) > _OUTPUTS else {})
+
+    def _whole(self) -> SeriesResult | None:
+        """The series, where it is all that there is."""
+        series = list(self.series.values())
+        return series[0] if len(series) == 1 and len(series[0].values) == len(self.outputs) else None
 
     def _only(self) -> OutputResult:
-        return self[_chosen(None, self.outputs)]
+        whole = self._whole()
+        return together(whole.name, whole.record) if whole is not None else self[_chosen(None, self.outputs)]
 
     @property
     def first_order(self) -> Indices:
@@ -215,8 +255,7 @@ class Result(Document):
 
     def to_frame(self) -> Any:
         """A row per factor, and per output if there are several, as a `pandas.DataFrame`."""
-        outputs = self.outputs
-        frames = {name: output.to_frame() for name, output in outputs.items()}
+        frames = {output.name: output.to_frame() for output in (*self.outputs.values(), *filter(None, [self.aggregate]))}
         if len(frames) == 1:
             return next(iter(frames.values()))
         return needed("pandas", "to_frame").concat(frames, names=["output"])
@@ -227,8 +266,9 @@ class Result(Document):
         return dataset(list(self.outputs.values()), "output", list(self.outputs))
 
     def plot(self, output: str | None = None, ax: Any = None) -> Any:  # type: ignore[override]
-        """Bars of the indices of an output with their intervals, on `ax` of matplotlib; returns the axes."""
-        return self[_chosen(output, self.outputs)].plot(ax)
+        """Bars of the indices of an output with their intervals, or lines of the only series, on `ax` of matplotlib; returns the axes."""
+        whole = self._whole() if output is None else None
+        return whole.plot(ax=ax) if whole is not None else self[_chosen(output, self.outputs)].plot(ax)
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:

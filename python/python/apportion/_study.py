@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -14,12 +15,21 @@ from ._checks import MAX_SEED, MAX_THREADS, whole
 from ._distributions import Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere, workers_of
-from ._functions import Call, reason_of, with_hint
+from ._functions import Call, reason_of, unnamed, with_hint
 from ._keys import (
-    ANALYSIS,
-    DESIGN,
     RUN,
-    TABLES,
+    AnalysisOptions,
+    DesignOptions,
+    Estimator,
+    Failures,
+    IndicesOf,
+    Intervals,
+    Measure,
+    Resume,
+    Sampler,
+    StudyOptions,
+    Style,
+    Surrogate,
     dependence_tables,
     factors_of,
     lengths_of,
@@ -34,98 +44,37 @@ from ._result import Document, Result
 from ._tables import in_order, named, numbers, placed, series_name
 from ._warnings import warn
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
-# Keywords of `Study` that are named in its signature.
-_NAMED = ("outputs", "name", "title", "vectorised", "call", "accuracy", "smallest_region", "max_time", "noise")
 _MAX_TRAJECTORIES, _MAX_LEVELS, _MAX_POINTS = 2**32, 2**16, 10**6
 
 
 class Study:
     """A model, the factors to compare, and the number of model runs.
 
-    `model` is a function of Python, the name of a model of the engine ("ishigami", "afm", ...), or None if the outputs are
-    computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
-
-    `outputs` are names, or a mapping from names to units. An output may be a series, with several values a row: an array of
-    (rows, values), or of (values,) where `vectorised=False`, in a dict or tuple of outputs or as the only one that `outputs`
-    names. The mapping describes its axis: `outputs={"infected": {"axis": "day", "unit": "%"}}`, with
-    `axis_unit`, and `positions` (all, or the first one and the step).
-
-    `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name;
-    `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
-    and `noise={"repetitions": 8}` calls the function 8 times for each row: its outputs are then `y_mean` and `y_variance`.
-
-    The length of a run: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
-    within `max_runs` and `max_time` (seconds), not missing any region of `smallest_region` of a factor's range (0.05 for functions of
-    Python). By default 16,384 base samples.
-
-    The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
-    a NumPy generator, from which a seed is drawn).
-
-    What is estimated: indices of the factors, or with `indices_of="groups"` of their groups only (`Uniform(0, 1, group="soil")`), which
-    takes N (G + 2) runs for G groups; `second_order` indices, closed indices of `subsets` of factors, `shapley` effects, `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
-    ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
-    a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
-
-    Failed runs: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
-
-    Tables of a study file: `afm={...}`, `function={...}`, `expression={...}` (constants), `fidelity={...}` (cheaper models).
-    Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of
-    tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; or from
-    joint measurements, one in each row: `[{"factors": ["a", "b"], "measurements": array}]`.
+    The keywords are those of `analyse` that are not about the run.
     """
 
     def __init__(
         self,
         model: Callable[..., Any] | str | None,
         factors: Mapping[str, Any] | None = None,
-        *,
-        outputs: Sequence[str] | Mapping[str, Any] | str | None = None,
-        name: str = "study",
-        title: str | None = None,
-        vectorised: bool = True,
-        vectorized: bool | None = None,
-        call: str | None = None,
-        base_samples: int | None = None,
-        runs: int | None = None,
-        accuracy: float | None = None,
-        smallest_region: float | None = None,
-        max_runs: int | None = None,
-        max_time: float | None = None,
-        sampler: str | None = None,
-        replicates: int | None = None,
-        seed: int | np.random.Generator | None = None,
-        indices_of: str | None = None,
-        second_order: bool | None = None,
-        subsets: Sequence[Sequence[str]] | None = None,
-        estimators: Sequence[str] | None = None,
-        intervals: str | None = None,
-        surrogate: str | None = None,
-        shapley: bool | None = None,
-        measures: Sequence[str] | None = None,
-        threshold: float | None = None,
-        dummy: bool | None = None,
-        convergence: bool | None = None,
-        aggregate: bool | None = None,
-        resamples: int | None = None,
-        failures: str | None = None,
-        max_failed: float | None = None,
-        noise: str | Mapping[str, Any] | None = None,
-        dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None = None,
-        afm: Mapping[str, Any] | None = None,
-        function: Mapping[str, Any] | None = None,
-        expression: Mapping[str, Any] | None = None,
-        fidelity: Mapping[str, Any] | None = None,
-        **unknown: NoReturn,
+        **keywords: Unpack[StudyOptions],
     ):
-        keywords = dict(locals())
-        self._is_long_by_default = callable(model) and not vectorised and base_samples is runs is accuracy is None
-        refuse_unknown(unknown, (*_NAMED, *DESIGN, *ANALYSIS, *TABLES))
-        options = {key: keywords[key] for key in (*DESIGN, *ANALYSIS, *TABLES)}
-        if isinstance(seed, np.random.Generator):
-            options["seed"] = int(seed.integers(2**63 - 1))
-        vectorised = vectorised if vectorized is None else vectorized
+        refuse_unknown(keywords, StudyOptions.__annotations__)
+        options: dict[str, Any] = said(keywords)
+        vectorised, outputs, call = options.pop("vectorised", True), options.pop("outputs", None), options.pop("call", None)
+        vectorised = options.pop("vectorized", vectorised)
+        self._version: str | None = options.pop("version", None)
+        self._is_long_by_default = callable(model) and not vectorised and not {"base_samples", "runs", "accuracy"} & set(options)
+        if isinstance(options.get("seed"), np.random.Generator):
+            options["seed"] = int(options["seed"].integers(2**63 - 1))
+        if "max_time" in options:
+            options["max_time"] = f"{options['max_time']} s"
+        noise = options.pop("noise", None)
         if isinstance(outputs, str):
             outputs = [outputs]
         made = factors_of(factors)
@@ -140,10 +89,6 @@ class Study:
         else:
             made |= {} if noise is None else {noise: Seed()}
             stated = made
-        table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy, "smallest_region": smallest_region}
-        design = {key: options.pop(key, None) for key in DESIGN}
-        design["max_time"] = None if max_time is None else f"{max_time} s"
-        analysis = {key: options.pop(key, None) for key in ANALYSIS}
         options["dependence"] = dependence_tables(options.get("dependence"), made)
         self._call: Call | RepeatedCall | None = None
         if callable(model):
@@ -158,17 +103,17 @@ class Study:
                 outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
             raise StudyError("factors by their quantile functions work only with functions of Python")
-        table["model"] = "external" if callable(model) or model is None else model
+        table: dict[str, Any] = {"model": "external" if callable(model) or model is None else model, "name": "study"}
         if isinstance(outputs, Mapping):
             table["outputs"] = stated_outputs(outputs, {})
         elif outputs is not None:
             table["outputs"] = list(outputs)
         elif table["model"] == "external":
-            table["outputs"] = ["y"]
-        tables = {"design": said(design), "analysis": said(analysis), **options}
-        tables = {key: value for key, value in tables.items() if value is not None and value != {} and value != []}
-        tables["factor"] = [{"name": key, **factor.keys} for key, factor in stated.items()]
-        self._table = {**said(table), **tables}
+            table["outputs"] = [unnamed(made)]
+        for key, of in {"design": DesignOptions, "analysis": AnalysisOptions}.items():
+            table[key] = {name: options.pop(name) for name in of.__annotations__ if name in options}
+        factor = [{"name": key, **factor.keys} for key, factor in stated.items()]
+        self._table = {key: value for key, value in {**table, **options, "factor": factor}.items() if value not in ({}, [])}
         self._parse()
         # Rows that a function of one row was tried with, as bytes, and its answers or why there is none; None before.
         self._tried: dict[bytes, np.ndarray | str] | None = None
@@ -201,7 +146,7 @@ class Study:
     def _of(cls, study: _engine.Study, made_from: tuple[str, str, list[str]]) -> "Study":
         made = cls.__new__(cls)
         made._table, made._call, made._study, made._made_from, made._tried = {}, None, study, made_from, None
-        made._is_long_by_default = False
+        made._is_long_by_default, made._version = False, None
         return made
 
     def __repr__(self) -> str:
@@ -245,7 +190,7 @@ class Study:
         if self._study.grows:
             raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
         # The names of the outputs are unknown.
-        is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
+        is_unnamed = self._study.is_external and self._table.get("outputs") == [unnamed(self.factors)]
         outputs = in_order(outputs)
         columns = named(outputs, "the outputs have")
         if columns is None:
@@ -309,7 +254,7 @@ class Study:
         executor: Any = None,
         in_flight: int | None = None,
         journal: str | os.PathLike[str] | None = None,
-        resume: str = "if-there",
+        resume: Resume = "if-there",
         progress: bool | Callable[[int, int], None] | None = None,
     ) -> Result:
         """Runs the study and estimates its indices. Warnings of the result are Python warnings; if no output has an index, because all
@@ -318,11 +263,12 @@ class Study:
         `threads`: of the engine; 0 for one per core. `executor`: any executor of `concurrent.futures` or of its kind, which
         gets blocks of rows, `in_flight` at a time. `journal`: a file that keeps evaluated runs; the same call resumes
         an interrupted run (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
-        tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is installed and the output is interactive.
+        tqdm, or a line a minute without it, a function of (done, total), False for nothing; by default True, if the output is
+        interactive.
         """
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
-        function = self._function(stop, executor, in_flight)
+        function = self._function(stop, executor, in_flight, journal is not None)
         if self._is_long_by_default:
             say(f"{self.name}: {self.runs} runs of the function; fewer with base_samples=, runs= or accuracy=")
         path = None if journal is None else os.fspath(journal)
@@ -339,33 +285,36 @@ class Study:
         levels: int | None = None,
         seed: int | None = None,
         threads: int = 0,
+        executor: Any = None,
+        in_flight: int | None = None,
+        progress: bool | Callable[[int, int], None] | None = None,
     ) -> Document:
         """Elementary effects: screening of many factors, with a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid."""
+        `levels` the trajectories of Morris (1991) on a grid. `executor`, `in_flight` and `progress` are those of `run`."""
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
-        function = self._function(stop, None, None)
-        document = self._study.screen(
-            function,
-            stop,
-            trajectories=trajectories,
-            levels=levels,
-            seed=seed,
-            threads=threads,
-            progress=None,
-        )
-        return Document(document)
+        function = self._function(stop, executor, in_flight)
+        # A trajectory at a time for each thread.
+        threads = function["workers"] if function is not None and executor is not None else threads
+        with Progress(progress, self.name) as bar:
+            document = self._study.screen(
+                function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=bar.callback
+            )
+        return Document(document).warned()
 
-    def sweep(self, *factors: str, points: int = 101) -> Document:
-        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named."""
+    def sweep(self, *factors: str, points: int = 101, executor: Any = None) -> Document:
+        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named. `executor`
+        is that of `run`."""
         points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
-        return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points))
+        return Document(self._study.sweep(self._function(stop, executor), stop, list(factors), points)).warned()
 
-    def _function(self, stop: _engine.Stop, executor: Any, in_flight: int | None) -> dict[str, Any] | None:
+    def _function(
+        self, stop: _engine.Stop, executor: Any = None, in_flight: int | None = None, is_kept: bool = False
+    ) -> dict[str, Any] | None:
         """What the engine calls."""
         if self._call is None:
             if executor is not None:
@@ -375,12 +324,12 @@ class Study:
             return None
         if executor is not None:
             in_flight = workers_of(executor, in_flight)
+        version = self._call.identity(self._version) if is_kept else ""
         self._learn()
         call, workers = self._here, 0
         if executor is not None:
             call, workers = called_elsewhere(executor, self._call, stop), in_flight or 1
         is_slow = executor is not None or not self._call.vectorised
-        version = self._call.fingerprint()
         return {"call": call, "version": version, "workers": workers, "is_slow": is_slow}
 
     def _here(self, columns: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
@@ -466,9 +415,7 @@ def _with_warnings(result: Result) -> Result:
         error = RunError(f"there are no indices: {reasons}")
         error.result = result
         raise error
-    for warning in dict.fromkeys(result.warnings):
-        warn(warning)
-    return result
+    return result.warned()
 
 
 def analyse(
@@ -480,33 +427,34 @@ def analyse(
     title: str | None = None,
     vectorised: bool = True,
     vectorized: bool | None = None,
-    call: str | None = None,
+    call: Style | None = None,
+    version: str | None = None,
     base_samples: int | None = None,
     runs: int | None = None,
     accuracy: float | None = None,
     smallest_region: float | None = None,
     max_runs: int | None = None,
     max_time: float | None = None,
-    sampler: str | None = None,
+    sampler: Sampler | None = None,
     replicates: int | None = None,
     seed: int | np.random.Generator | None = None,
-    indices_of: str | None = None,
+    indices_of: IndicesOf | None = None,
     second_order: bool | None = None,
     subsets: Sequence[Sequence[str]] | None = None,
-    estimators: Sequence[str] | None = None,
-    intervals: str | None = None,
-    surrogate: str | None = None,
+    estimators: Sequence[Estimator] | None = None,
+    intervals: Intervals | None = None,
+    surrogate: Surrogate | None = None,
     shapley: bool | None = None,
-    measures: Sequence[str] | None = None,
+    measures: Sequence[Measure] | None = None,
     threshold: float | None = None,
     dummy: bool | None = None,
     convergence: bool | None = None,
     aggregate: bool | None = None,
     resamples: int | None = None,
-    failures: str | None = None,
+    failures: Failures | None = None,
     max_failed: float | None = None,
     noise: str | Mapping[str, Any] | None = None,
-    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None = None,
+    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | Any = None,
     afm: Mapping[str, Any] | None = None,
     function: Mapping[str, Any] | None = None,
     expression: Mapping[str, Any] | None = None,
@@ -515,12 +463,50 @@ def analyse(
     executor: Any = None,
     in_flight: int | None = None,
     journal: str | os.PathLike[str] | None = None,
-    resume: str = "if-there",
+    resume: Resume = "if-there",
     progress: bool | Callable[[int, int], None] | None = None,
     **unknown: NoReturn,
 ) -> Result:
-    """Runs a study and estimates its indices: `Study(model, factors, ...)` and its `run(...)` in one call. The keywords are those of
-    `Study` and of `Study.run`."""
+    """Runs a study and estimates its indices: `Study(model, factors, ...)` and its `run(...)` in one call.
+
+    `model` is a function of Python, the name of a model of the engine ("ishigami", "afm", ...), or None if the outputs are
+    computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
+
+    `outputs` are names, or a mapping from names to units. An output may be a series, with several values a row: an array of
+    (rows, values), or of (values,) where `vectorised=False`, in a dict or tuple of outputs or as the only one that `outputs`
+    names. The mapping describes its axis: `outputs={"infected": {"axis": "day", "unit": "%"}}`, with
+    `axis_unit`, and `positions` (all, or the first one and the step).
+
+    `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name;
+    `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
+    and `noise={"repetitions": 8}` calls the function 8 times for each row: its outputs are then `y_mean` and `y_variance`.
+
+    The length of a run: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
+    within `max_runs` and `max_time` (seconds), not missing any region of `smallest_region` of a factor's range (0.05 for functions of
+    Python). By default 16,384 base samples.
+
+    The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
+    a NumPy generator, from which a seed is drawn).
+
+    What is estimated: indices of the factors, or with `indices_of="groups"` of their groups only (`Uniform(0, 1, group="soil")`), which
+    takes N (G + 2) runs for G groups; `second_order` indices, closed indices of `subsets` of factors, `shapley` effects, `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
+    ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
+    a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
+
+    Failed runs: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
+
+    Tables of a study file: `afm={...}`, `function={...}`, `expression={...}` (constants), `fidelity={...}` (cheaper models).
+    Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or the matrix of all (`np.corrcoef(rows.T)`, `df.corr()`), or a list of
+    tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; or from
+    joint measurements, one in each row: `[{"factors": ["a", "b"], "measurements": array}]`.
+
+    The run: `threads`, `executor`, `in_flight`, `journal`, `resume`, `progress`, see `Study.run`. `version` tells a function from
+    its earlier states in a journal, where its code does not.
+    """
     keywords = {key: value for key, value in locals().items() if key not in ("model", "factors", "unknown")}
     of_run = {key: keywords.pop(key) for key in RUN}
     return Study(model, factors, **keywords, **unknown).run(**of_run)
+
+
+_parameters = inspect.signature(analyse).parameters
+Study.__signature__ = inspect.Signature([of for key, of in _parameters.items() if key not in RUN])  # type: ignore[attr-defined]

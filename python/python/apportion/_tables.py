@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import numbers as kinds
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -35,17 +36,21 @@ def numbers(values: Any, what: str, error: type[Exception] = StudyError) -> np.n
 def _number(value: Any) -> float:
     if value is None or value is np.ma.masked or type(value).__name__ == "NAType":
         return np.nan
-    if isinstance(value, (kinds.Real, np.bool_)):
+    if isinstance(value, (kinds.Real, np.bool_)) or hasattr(value, "__float__"):
         return float(value)
     raise TypeError(f"{value!r} is not a real number")
 
 
 def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str, np.ndarray] | None:
-    """The columns of a mapping or of a frame (whatever has `columns`) by their names, as numbers.
+    """The columns of a mapping, of a named tuple, of a dataclass or of a frame (whatever has `columns`) by their names, as numbers.
 
     None if there are no names: of arrays, and of frames whose columns are numbered 0, 1, ... as those made of an array are.
     `error` says of `what` that there are no columns, or two of the same name, or which one holds no numbers.
     """
+    if dataclasses.is_dataclass(data) and not isinstance(data, type):
+        data = vars(data) if hasattr(data, "__dict__") else dataclasses.asdict(data)
+    elif isinstance(data, tuple) and hasattr(data, "_asdict"):
+        data = data._asdict()
     if isinstance(data, Mapping):
         names = list(data)
     elif hasattr(data, "columns") and hasattr(data, "__getitem__"):

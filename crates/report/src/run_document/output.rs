@@ -253,9 +253,15 @@ fn percent_below(share: f64) -> String {
     significant((share * 1e4).floor() / 1e2)
 }
 
+/// Factor of the number of runs above which it cannot be checked.
+const MAX_GAIN: f64 = 1000.0;
+
 /// Says by how much the surrogates make indices more accurate.
 fn gain(what: &str, is_corrected: bool, gain: Option<f64>) -> String {
     match gain.filter(|_| is_corrected) {
+        Some(gain) if gain > MAX_GAIN => {
+            format!("the {what} indices are as accurate as with more than {MAX_GAIN} times the runs")
+        }
         Some(gain) => format!("the {what} indices are as accurate as with {} times the runs", two_digits(gain)),
         None if is_corrected => format!("the {what} indices are corrected by them"),
         None => format!("the {what} indices are the plain ones, which are no less accurate"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from .._engine import StudyError
 from .._tables import numbers
+from .._warnings import warn
 
 
 def rows_of(members: Mapping[str, list[int]], names: list[str], X: Any, y: np.ndarray, second_order: bool) -> np.ndarray:
@@ -28,13 +28,13 @@ def rows_of(members: Mapping[str, list[int]], names: list[str], X: Any, y: np.nd
         raise StudyError(_disorder(members, names, x, step))
     if len(starts) * step < len(x):
         lost = len(x) - len(starts) * step
-        warnings.warn(f"{lost} rows are not in a complete base point, and are left out: rows are missing", stacklevel=3)
+        warn(f"{lost} rows are not in a complete base point, and are left out: rows are missing")
     a, b = x[starts], x[starts + step - 1]
     first = np.sort(np.unique(np.hstack([a, b]), axis=0, return_index=True)[1])
     if len(first) < len(starts):
         again = int(np.setdiff1d(np.arange(len(starts)), first)[0])
         count = len(starts) - len(first)
-        warnings.warn(f"{count} base points repeat earlier ones (from row {starts[again] + 1} on): each is used once", stacklevel=3)
+        warn(f"{count} base points repeat earlier ones (from row {starts[again] + 1} on): each is used once")
     _independent(names, a[first], b[first])
     return y[starts[first][:, None] + np.arange(step)]
 

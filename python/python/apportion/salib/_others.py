@@ -9,7 +9,7 @@ from types import ModuleType
 
 _PACKAGE = __name__.rpartition(".")[0]
 _GIVEN = "ap.given_data(X, Y, measures=True)"
-_SURROGATE = "ap.given_data(X, Y, surrogate=True)"
+_SURROGATE = "ap.given_data(X, Y), which fits a surrogate"
 _FAST = "sample.sobol with analyze.sobol, or sample.latin with analyze.rbd_fast"
 _SHAPLEY = "ap.analyse(f, ap.from_salib(problem), shapley=True)"
 _SCREEN = "ap.Study(f, ap.from_salib(problem)).screen()"
@@ -33,7 +33,6 @@ _INSTEAD = {
     "analyze.shapley": _SHAPLEY,
     "analyze.sobol_jansen": "sample.sobol with analyze.sobol",
     "plotting.hdmr": _CHARTS,
-    "plotting.heatmap": _CHARTS,
     "plotting.morris": _CHARTS,
     "plotting.shapley": _CHARTS,
 }

@@ -81,6 +81,10 @@ class ProblemSpec(dict[str, Any]):
             raise AttributeError(f"{name}: there is no {error.name}") from None
         return partial(getattr(self, kind), getattr(module, kind))
 
+    def __dir__(self) -> list[str]:
+        kinds = {kind: importlib.import_module(f"{_PACKAGE}.{kind}").__all__ for kind in ("sample", "analyze")}
+        return [*super().__dir__(), *(f"{kind}_{method}" for kind, methods in kinds.items() for method in methods)]
+
     @property
     def samples(self) -> Any:
         """The points, (rows, factors)."""
@@ -182,6 +186,10 @@ class ProblemSpec(dict[str, Any]):
             of.plot(ax=row if columns > 1 else row[0], **keywords)
             row[0].set_title(name)
         return rows if columns > 1 else rows[:, 0]
+
+    def heatmap(self, metric: str | None = None, index: Any = None, title: str | None = None, ax: Any = None) -> Any:
+        """Colours of the indices of an output, the first one if none is named, by factors; returns the axes of matplotlib."""
+        return importlib.import_module(f"{_PACKAGE}.plotting.heatmap").heatmap(self, metric, index, title, ax)
 
     def __str__(self) -> str:
         parts = []

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +11,7 @@ from ... import _engine
 from ..._checks import whole
 from ..._indices import needed
 from ..._tables import numbers
+from ..._warnings import warn
 from .._layout import rows_of
 from .._problem import Seed, generator, members_of
 from ..util import ResultDict, confidence
@@ -60,7 +60,7 @@ def analyze(
     `parallel` and `n_processors` have no effect. What is not finite in `Y` leaves its base point out,
     with a warning. Points `X`, (rows, factors), are checked if given: base points that lack a row or repeat an earlier one are
     left out, and correlated or unequal matrices A and B are refused.
-    A `StudyError` says that the number of outputs is wrong, or that they do not vary.
+    Indices of outputs that do not vary are 0, with a warning. A `StudyError` says that the number of outputs is wrong.
     """
     num_resamples = whole("num_resamples", num_resamples, 0, _MAX_RESAMPLES)
     z, rng = confidence(conf_level), generator(seed)
@@ -74,13 +74,15 @@ def analyze(
     if X is None and (y.size < 2 * step or y.size % step):
         raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
     if unlikely := _engine.unlikely(y):
-        warnings.warn(unlikely, stacklevel=2)
+        warn(unlikely)
     rows = y.reshape(-1, step) if X is None else rows_of(members_of(problem), list(problem["names"]), X, y, calc_second_order)
     n, rows = len(rows), rows[np.isfinite(rows).all(axis=1)]
     if len(rows) < n:
-        warnings.warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out", stacklevel=2)
-    if len(rows) < 2 or np.ptp(rows) == 0:
-        raise _engine.StudyError("no indices: the outputs do not vary")
+        warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out")
+    if len(rows) < 2:
+        raise _engine.StudyError(f"no indices: {len(rows)} base points have outputs")
+    if np.ptp(rows) == 0:
+        warn("the outputs do not vary: all indices are 0")
     first, total, pairs = (of[0] for of in _indices(rows, d, np.full((1, len(rows)), 1 / len(rows))))
     of_first, of_total, of_pairs = _indices(rows, d, _drawn(len(rows), num_resamples, rng))
 
@@ -111,10 +113,11 @@ def _drawn(n: int, resamples: int, rng: np.random.Generator) -> np.ndarray:
 def _indices(rows: np.ndarray, d: int, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """First-order, total, (resamples, d), and second-order indices, (resamples, pairs), of base points that count as `counts` says,
     (resamples, n): S1 by Saltelli et al. 2010, ST by Jansen 1999, S2 by Saltelli 2002, of outputs less the mean of all."""
-    rows = (rows - rows.mean()) / rows.std()
+    rows = (rows - rows.mean()) / (rows.std() or 1.0)
     a, ab, ba, b = rows[:, :1], rows[:, 1 : d + 1], rows[:, d + 1 : -1], rows[:, -1:]
     both = counts @ np.hstack([(a + b) / 2, (a * a + b * b) / 2])
     variance = both[:, 1:] - both[:, :1] ** 2
+    variance[variance == 0] = 1.0
     first = counts @ (b * (ab - a)) / variance
     total = counts @ (a - ab) ** 2 / (2 * variance)
     # A factor at a time: all products of pairs would be many arrays of outputs.

@@ -1,5 +1,5 @@
-"""SALib's bars; the charts of results, `document.charts()` and `document.plot()`, show more."""
+"""SALib's bars and heat maps; the charts of results, `document.charts()` and `document.plot()`, show more."""
 
-from . import bar
+from . import bar, heatmap
 
-__all__ = ["bar"]
+__all__ = ["bar", "heatmap"]

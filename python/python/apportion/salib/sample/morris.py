@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from ..._checks import whole
 from ..._engine import StudyError
+from ..._warnings import warn
 from .._problem import Seed, from_problem, generator, members_of
 
 
@@ -34,7 +34,7 @@ def sample(
         raise StudyError("dists: trajectories on a grid are those of unif; for other distributions use Study.screen()")
     N, num_levels = whole("N", N, 1, 2**32), whole("num_levels", num_levels, 2, 2**16)
     if num_levels % 2:
-        warnings.warn(f"num_levels={num_levels}: an even number is without bias", stacklevel=2)
+        warn(f"num_levels={num_levels}: an even number is without bias")
     rng = generator(seed)
     members = members_of(problem)
     group_of = np.empty(len(problem["names"]), dtype=int)
