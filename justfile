@@ -89,6 +89,10 @@ wheel-test FOLDER="dist": (_environment "python" "-r python/tests/requirements.t
     {{ quote(in_python / "python") }} {{ pip }} --force-reinstall --no-deps --no-index --find-links {{ quote(FOLDER) }} apportion
     APPORTION=$(ls {{ quote(apportion) }} 2>/dev/null || true) {{ quote(in_python / "python") }} -m pytest -q -p no:cacheprovider python/tests
 
+# SALib's own tests on `apportion.salib`; SOURCES is the folder of SALib's sources (`just python` comes before)
+salib SOURCES: (_environment "python" "-r python/tests/requirements.txt")
+    {{ quote(in_python / "python") }} python/tests/salib_suite.py {{ quote(SOURCES) }}
+
 # The program on the ranks of an MPI job
 mpi: _cargo (_tool "mpirun" mpi_packages) (_tool "mpicc" mpi_packages)
     @compgen -G '/usr/lib/llvm*/lib/libclang*' || compgen -G '/usr/lib*/libclang*' || [ -n "${LIBCLANG_PATH:-}" ] || { echo "libclang is missing: {{ mpi_packages }}, or LIBCLANG_PATH" >&2; exit 1; }

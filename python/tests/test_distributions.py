@@ -35,7 +35,7 @@ class Factor:
 def test_the_stub_has_every_constructor_with_its_signature():
     functions = sorted(set(_distributions.__all__) - {"Factor"})
     lines = [f"def {name}{inspect.signature(getattr(ap, name))}: ...\n".replace("'", "") for name in functions]
-    head = HEAD.replace("{names}", "[\n" + "".join(f'    "{name}",\n' for name in ["Factor", *functions]) + "]")
+    head = HEAD.replace("{names}", str(["Factor", *functions]).replace("'", '"'))
     if "APPORTION_WRITE" in os.environ:
         STUB.write_text(head + "".join(lines), encoding="utf-8")
     assert STUB.read_text(encoding="utf-8") == head + "".join(lines)

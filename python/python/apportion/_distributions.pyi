@@ -5,35 +5,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = [
-    "Factor",
-    "Beta",
-    "Boolean",
-    "Categorical",
-    "Constant",
-    "Discrete",
-    "Empirical",
-    "Exponential",
-    "Gamma",
-    "Gumbel",
-    "Histogram",
-    "Integer",
-    "LogNormal",
-    "LogUniform",
-    "Logistic",
-    "Normal",
-    "Pareto",
-    "Pert",
-    "Poisson",
-    "Seed",
-    "StudentT",
-    "Triangular",
-    "TruncatedGumbel",
-    "TruncatedNormal",
-    "Uniform",
-    "Weibull",
-    "from_scipy",
-]
+__all__ = ["Factor", "Beta", "Boolean", "Categorical", "Constant", "Discrete", "Empirical", "Exponential", "Gamma", "Gumbel", "Histogram", "Integer", "LogNormal", "LogUniform", "Logistic", "Normal", "Pareto", "Pert", "Poisson", "Seed", "StudentT", "Triangular", "TruncatedGumbel", "TruncatedNormal", "Uniform", "Weibull", "from_scipy"]
 
 class Factor:
     keys: dict[str, Any]

@@ -230,17 +230,101 @@ _PROBABILITIES = ("probability_first", "probability_above_threshold")
 _TOGETHER = {"unit": "1", "mean": np.nan, "variance": np.nan, "runs_failed": 0, "warnings": [], "second_order": [], "noise": None}
 
 
-def together(name: str, record: Mapping[str, Any]) -> OutputResult:
-    """The indices of several outputs together."""
-    return OutputResult({**_TOGETHER, **record, "name": name, "noise": None})
+class WithIndices:
+    """The indices of an output, of the only one, or of the only series as a whole."""
+
+    def _one(self) -> Mapping[str, Any]:
+        """Its record in the JSON file."""
+        raise NotImplementedError
+
+    @property
+    def first_order(self) -> Indices:
+        """First-order indices S of the factors."""
+        return self._indices("indices", "first_order")
+
+    @property
+    def total(self) -> Indices:
+        """Total indices ST of the factors."""
+        return self._indices("indices", "total")
+
+    @property
+    def interaction(self) -> Indices:
+        """S_T - S_1 of the factors; empty where they depend on each other."""
+        return self._indices("indices", "interaction")
+
+    @property
+    def probability_first(self) -> dict[str, float]:
+        """The probability of each factor that its total index is the largest, P(largest)."""
+        return self._numbers("probability_first")
+
+    @property
+    def probability_above_threshold(self) -> dict[str, float]:
+        """The probability of each factor that its total index is above the `threshold` of the study, P(S_T > t)."""
+        return self._numbers("probability_above_threshold")
+
+    @property
+    def shapley(self) -> Indices:
+        """Shapley effects of the factors or groups: shares of the variance that sum to 1 even where factors depend on each other.
+        There are some of up to 8 factors with `shapley=True`, and by default of up to 4 factors that depend on each other."""
+        records = [record for record in self._one()["indices"] or [] if "shapley" in record]
+        return Indices({record["factor"]: Index.of(record["shapley"]) for record in records})
+
+    @property
+    def measures(self) -> dict[str, Indices]:
+        """Other measures than Sobol' indices by their names, of the factors; empty without `measures=["delta", ...]`."""
+        factors = (self._one().get("measures") or {"factors": []})["factors"]
+        names = factors[0]["measures"] if factors else []
+        return {name: Indices({of["input"]: Index.of(of["measures"][name]) for of in factors}) for name in names}
+
+    @property
+    def second_order(self) -> Indices:
+        """Second-order indices by pairs of factors; empty if they were not requested."""
+        records = self._one()["second_order"] or []
+        return Indices({tuple(record["factors"]): Index.of(record["index"]) for record in records})
+
+    def groups(self, kind: str = "total") -> Indices:
+        """Joint indices of the groups; `kind` is "first_order" or "total"."""
+        return self._indices("groups", kind)
+
+    def subsets(self, kind: str = "first_order") -> Indices:
+        """Joint indices of the requested subsets; first-order ones are closed indices."""
+        return self._indices("subsets", kind)
+
+    @property
+    def noise(self) -> Mapping[str, Index] | None:
+        """Of a stochastic model the `first_order` and `total` index of its noise, and the `mean_share` of the variance that the
+        mean over the noise has."""
+        record = self._one().get("noise")
+        return record and {key: Index.of(record[key]) for key in ("first_order", "total", "mean_share")}
+
+    def of_mean(self, kind: str = "first_order") -> Indices:
+        """Indices of the mean over the noise, of its own variance; total ones if requested (`noise={"mean_totals": True}`), or the
+        joint index with the noise (`subsets=[["x1", "seed"], ...]`)."""
+        if kind not in ("first_order", "total"):
+            raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
+        records = (self._one().get("noise") or {}).get("of_mean", [])
+        return Indices({record["factor"]: Index.of(record[kind]) for record in records if record[kind] is not None})
+
+    def _indices(self, of: str, kind: str) -> Indices:
+        if kind not in _KINDS:
+            raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
+        records = [record for record in self._one().get(of) or [] if record.get(kind) is not None]
+        names = [tuple(record["factors"]) if of == "subsets" else record["factor"] for record in records]
+        return Indices(dict(zip(names, (Index.of(record[kind]) for record in records))))
+
+    def _numbers(self, key: str) -> dict[str, float]:
+        return {of["factor"]: of[key] for of in self._one()["indices"] or [] if of.get(key) is not None}
 
 
-class OutputResult(Shown):
+class OutputResult(WithIndices, Shown):
     """The indices of one output."""
 
     def __init__(self, record: Mapping[str, Any], threshold: float = 0.05):
         self.record = record
         self.threshold = threshold
+
+    def _one(self) -> Mapping[str, Any]:
+        return self.record
 
     def __repr__(self) -> str:
         return f"<output {self.name}: first-order\n{self.first_order}\ntotal\n{self.total}>"
@@ -287,83 +371,6 @@ class OutputResult(Shown):
         reason = self.record["reason"]
         return reason and reason["text"]
 
-    @property
-    def first_order(self) -> Indices:
-        """First-order indices S of the factors."""
-        return self._indices("indices", "first_order")
-
-    @property
-    def total(self) -> Indices:
-        """Total indices ST of the factors."""
-        return self._indices("indices", "total")
-
-    @property
-    def interaction(self) -> Indices:
-        """S_T - S_1 of the factors; empty where they depend on each other."""
-        return self._indices("indices", "interaction")
-
-    @property
-    def probability_first(self) -> dict[str, float]:
-        """The probability of each factor that its total index is the largest, P(largest)."""
-        return self._numbers("probability_first")
-
-    @property
-    def probability_above_threshold(self) -> dict[str, float]:
-        """The probability of each factor that its total index is above the `threshold` of the study, P(S_T > t)."""
-        return self._numbers("probability_above_threshold")
-
-    @property
-    def shapley(self) -> Indices:
-        """Shapley effects of the factors or groups, which sum to 1; empty if there are none."""
-        records = [record for record in self.record["indices"] or [] if "shapley" in record]
-        return Indices({record["factor"]: Index.of(record["shapley"]) for record in records})
-
-    @property
-    def measures(self) -> dict[str, Indices]:
-        """Other measures than Sobol' indices by their names, of the factors; empty without `measures=["delta", ...]`."""
-        factors = (self.record.get("measures") or {"factors": []})["factors"]
-        names = factors[0]["measures"] if factors else []
-        return {name: Indices({of["input"]: Index.of(of["measures"][name]) for of in factors}) for name in names}
-
-    @property
-    def second_order(self) -> Indices:
-        """Second-order indices by pairs of factors; empty if they were not requested."""
-        records = self.record["second_order"] or []
-        return Indices({tuple(record["factors"]): Index.of(record["index"]) for record in records})
-
-    def groups(self, kind: str = "total") -> Indices:
-        """Joint indices of the groups; `kind` is "first_order" or "total"."""
-        return self._indices("groups", kind)
-
-    def subsets(self, kind: str = "first_order") -> Indices:
-        """Joint indices of the requested subsets; first-order ones are closed indices."""
-        return self._indices("subsets", kind)
-
-    @property
-    def noise(self) -> Mapping[str, Index] | None:
-        """Of a stochastic model the `first_order` and `total` index of its noise, and the `mean_share` of the variance that the
-        mean over the noise has."""
-        record = self.record.get("noise")
-        return record and {key: Index.of(record[key]) for key in ("first_order", "total", "mean_share")}
-
-    def of_mean(self, kind: str = "first_order") -> Indices:
-        """Indices of the mean over the noise, of its own variance; total ones if requested (`noise={"mean_totals": True}`), or the
-        joint index with the noise (`subsets=[["x1", "seed"], ...]`)."""
-        if kind not in ("first_order", "total"):
-            raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
-        records = (self.record.get("noise") or {}).get("of_mean", [])
-        return Indices({record["factor"]: Index.of(record[kind]) for record in records if record[kind] is not None})
-
-    def _indices(self, of: str, kind: str) -> Indices:
-        if kind not in _KINDS:
-            raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
-        records = [record for record in self.record.get(of) or [] if record.get(kind) is not None]
-        names = [tuple(record["factors"]) if of == "subsets" else record["factor"] for record in records]
-        return Indices(dict(zip(names, (Index.of(record[kind]) for record in records))))
-
-    def _numbers(self, key: str) -> dict[str, float]:
-        return {of["factor"]: of[key] for of in self.record["indices"] or [] if of.get(key) is not None}
-
     def to_frame(self) -> Any:
         """A row per factor, and per group and subset if there are some, whose `kind` then tells them apart, as a
         `pandas.DataFrame`: indices with the ends of their intervals, probabilities and measures."""
@@ -391,6 +398,11 @@ class OutputResult(Shown):
         shown = {label: of for label, of in {**shown, "Shapley effect": self.shapley}.items() if of}
         tables = {f"Sobol' indices of {self.name}" + f": {self.reason}" * (not shown): shown}
         return tables | ({f"Measures of {self.name}": dict(self.measures)} if self.measures else {})
+
+
+def together(name: str, record: Mapping[str, Any]) -> OutputResult:
+    """The indices of several outputs together."""
+    return OutputResult({**_TOGETHER, **record, "name": name, "noise": None})
 
 
 class SeriesResult(Shown):
@@ -435,12 +447,12 @@ class SeriesResult(Shown):
     @property
     def first_order_of_all(self) -> Indices:
         """First-order indices of the whole series, each value counted by its variance (Gamboa et al. 2014)."""
-        return _of_factors(self.record["indices"], "first_order")
+        return together(self.name, self.record).first_order
 
     @property
     def total_of_all(self) -> Indices:
         """Total indices of the whole series."""
-        return _of_factors(self.record["indices"], "total")
+        return together(self.name, self.record).total
 
     def to_frame(self) -> Any:
         """A row for each value and factor with first-order and total index, as a `pandas.DataFrame`."""
@@ -482,10 +494,6 @@ def dataset(outputs: Sequence[OutputResult], dimension: str, coordinate: Any) ->
         data[kind] = (dimension, "factor", "bound"), np.array(rows, dtype=float).reshape(len(outputs), len(factors), 3)
     coordinates = {dimension: coordinate, "factor": factors, "bound": ["estimate", "low", "high"]}
     return needed("xarray", "to_xarray").Dataset(data, coordinates)
-
-
-def _of_factors(records: Any, kind: str) -> Indices:
-    return Indices({record["factor"]: Index.of(record[kind]) for record in records or []})
 
 
 def bars(ax: Any, caption: str, columns: Mapping[str, Mapping[Any, Any]]) -> Any:

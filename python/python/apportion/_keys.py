@@ -21,17 +21,8 @@ Measure = Literal["delta", "pawn_median", "pawn_max", "r2_hsic", "fourier"]
 Style = Literal["columns", "keywords", "matrix"]
 Resume = Literal["if-there", "require", "retry-failed", "never"]
 Estimator = Literal[
-    "default",
-    "sobol-1993",
-    "homma-saltelli",
-    "saltelli-2002",
-    "sobol-2007",
-    "saltelli-2010",
-    "jansen",
-    "janon-monod",
-    "martinez",
-    "glen-isaacs",
-    "azzini",
+    "default", "sobol-1993", "homma-saltelli", "saltelli-2002", "sobol-2007", "saltelli-2010", "jansen", "janon-monod",
+    "martinez", "glen-isaacs", "azzini",
 ]
 
 

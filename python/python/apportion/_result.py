@@ -14,7 +14,7 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 
 from . import _engine
-from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, axes, bars, dataset, needed, together
+from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, WithIndices, axes, bars, dataset, needed, together
 from ._warnings import warn
 
 _Document = TypeVar("_Document", bound="Document")
@@ -146,7 +146,7 @@ class Document(Shown):
         return Path(self._document.save(os.fspath(folder), list(charts), width))
 
 
-class Result(Document):
+class Result(WithIndices, Document):
     """The indices of a study, with their intervals.
 
     `first_order`, `total` and so on are those of the only output; with several, `result["name"]` is one of them.
@@ -200,43 +200,9 @@ class Result(Document):
         series = list(self.series.values())
         return series[0] if len(series) == 1 and len(series[0].values) == len(self.outputs) else None
 
-    def _only(self) -> OutputResult:
+    def _one(self) -> Mapping[str, Any]:
         whole = self._whole()
-        return together(whole.name, whole.record) if whole is not None else self[_chosen(None, self.outputs)]
-
-    @property
-    def first_order(self) -> Indices:
-        """First-order indices S of the factors."""
-        return self._only().first_order
-
-    @property
-    def total(self) -> Indices:
-        """Total indices ST of the factors."""
-        return self._only().total
-
-    @property
-    def shapley(self) -> Indices:
-        """Shapley effects of the factors: shares of the variance that sum to 1 even where factors depend on each other. There are
-        some of up to 8 factors with `shapley=True`, and by default of up to 4 factors that depend on each other."""
-        return self._only().shapley
-
-    @property
-    def measures(self) -> dict[str, Indices]:
-        """Other measures than Sobol' indices by their names, with `measures=["delta", "pawn_median", ...]`."""
-        return self._only().measures
-
-    @property
-    def second_order(self) -> Indices:
-        """Second-order indices by pairs of factors."""
-        return self._only().second_order
-
-    def groups(self, kind: str = "total") -> Indices:
-        """Joint indices of the groups."""
-        return self._only().groups(kind)
-
-    def subsets(self, kind: str = "first_order") -> Indices:
-        """Joint indices of the subsets asked for."""
-        return self._only().subsets(kind)
+        return together(whole.name, whole.record).record if whole is not None else self[_chosen(None, self.outputs)].record
 
     @property
     def runs(self) -> int:
