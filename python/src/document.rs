@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
+use apportion::StudyResult;
 use apportion::result::parse_result;
 use apportion::uncertainty::{Estimate, Interval};
 use apportion_report::chart::ChartWidth;
@@ -15,19 +17,30 @@ use pyo3::prelude::*;
 
 use crate::errors::{failed, input};
 
+type Described = apportion_report::Document;
+
 /// What a command has to say, with the JSON that it is made from.
 #[pyclass(frozen)]
 pub struct Document {
-    document: apportion_report::Document,
+    name: String,
     json: String,
+    /// Made when it is asked for: of a thousand outputs it takes longer than their indices.
+    document: LazyLock<Described, Box<dyn FnOnce() -> Described + Send>>,
 }
 
 impl Document {
     /// The JSON is one of the document's files.
-    pub fn new(document: apportion_report::Document) -> Self {
+    pub fn new(document: Described) -> Self {
         let json = document.files.iter().find(|file| file.name.ends_with(".json"));
         let json = json.map(|file| file.text.clone()).unwrap_or_default();
-        Self { document, json }
+        Self { name: document.name.clone(), json, document: LazyLock::new(Box::new(move || document)) }
+    }
+}
+
+impl From<StudyResult> for Document {
+    fn from(result: StudyResult) -> Self {
+        let (name, json) = (result.study.name.clone(), result.json());
+        Self { name, json, document: LazyLock::new(Box::new(move || run_document(&result))) }
     }
 }
 
@@ -35,7 +48,7 @@ impl Document {
 impl Document {
     #[getter]
     fn name(&self) -> &str {
-        &self.document.name
+        &self.name
     }
 
     /// What decides, a sentence or two each.
@@ -111,10 +124,10 @@ pub fn in_words(estimate: f64, low: f64, high: f64) -> String {
 pub fn read_document(json: &str, name: &str) -> PyResult<Document> {
     let of = |error: serde_json::Error| input(error.to_string());
     let format = serde_json::from_str::<serde_json::Value>(json).map_err(of)?["format"].take();
-    Ok(Document::new(match format.as_str() {
-        Some("apportion-screening") => screening_document(&serde_json::from_str(json).map_err(of)?),
-        Some("apportion-sweep") => sweep_document(&serde_json::from_str(json).map_err(of)?),
-        Some("apportion-given-data") => given_document(&serde_json::from_str(json).map_err(of)?, name),
-        _ => run_document(&parse_result(json.as_bytes()).map_err(input)?),
-    }))
+    Ok(match format.as_str() {
+        Some("apportion-screening") => Document::new(screening_document(&serde_json::from_str(json).map_err(of)?)),
+        Some("apportion-sweep") => Document::new(sweep_document(&serde_json::from_str(json).map_err(of)?)),
+        Some("apportion-given-data") => Document::new(given_document(&serde_json::from_str(json).map_err(of)?, name)),
+        _ => parse_result(json.as_bytes()).map_err(input)?.into(),
+    })
 }

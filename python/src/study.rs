@@ -5,12 +5,11 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use apportion::given::Column;
-use apportion::result::{RunFacts, StudyResult};
+use apportion::result::RunFacts;
 use apportion::run::{RowBlock, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
-use apportion_report::run_document;
 use apportion_report::screening::{build_screening, screening_document};
 use apportion_report::sweep::{build_sweep, sweep_document};
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -214,7 +213,7 @@ impl Study {
                 runner = runner.journal(journal);
             }
             let result = runner.run().map_err(|error| run_error(&error))?;
-            Ok(document(&result))
+            Ok(result.into())
         })
     }
 
@@ -255,7 +254,7 @@ impl Study {
         }
         py.detach(|| {
             let result = study.runner().store(&store).run().map_err(|error| run_error(&error))?;
-            Ok(document(&result))
+            Ok(result.into())
         })
     }
 
@@ -360,8 +359,4 @@ impl Study {
         let first_error = first_error.lock().unwrap_or_else(PoisonError::into_inner).take();
         first_error.map_or(result, Err)
     }
-}
-
-fn document(result: &StudyResult) -> Document {
-    Document::new(run_document(result))
 }

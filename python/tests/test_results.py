@@ -256,3 +256,14 @@ def test_all_kinds_of_results_warn_at_the_line_that_asks():
             document = ask()
         assert {warning.filename for warning in caught} == {__file__}
         assert [str(warning.message) for warning in caught] == list(dict.fromkeys(document.warnings))
+
+
+def test_many_outputs_warn_once_of_each_kind():
+    def curve(x):
+        return x[:, :1] * np.linspace(1, 2, 20) + (x[:, 1:] > 0.995) * 1e3
+
+    with pytest.warns(ap.SensitivityWarning) as warned:
+        result = ap.analyse(curve, {"a": ap.Uniform(0, 1), "b": ap.Uniform(0, 1)}, call="matrix", base_samples=64)
+    assert len(result.warnings) >= 20
+    kinds = {of["code"] for record in result.to_dict()["outputs"] for of in record["warnings"]}
+    assert len([w for w in warned if issubclass(w.category, ap.SensitivityWarning)]) == len(kinds)

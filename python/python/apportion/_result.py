@@ -146,6 +146,10 @@ class Document(Shown):
         return Path(self._document.save(os.fspath(folder), list(charts), width))
 
 
+# Outputs up to which each warning is told.
+_WARNED = 10
+
+
 class Result(WithIndices, Document):
     """The indices of a study, with their intervals.
 
@@ -218,6 +222,17 @@ class Result(WithIndices, Document):
     def warnings(self) -> list[str]:
         """What a careful reader should know, of all outputs."""
         return [warning for output in self.outputs.values() for warning in output.warnings]
+
+    def warned(self) -> Result:
+        """The result, with its warnings warned of: of many outputs the first of each kind, and how many outputs have one."""
+        kinds: dict[str, list[str]] = {}
+        for record in self.to_dict()["outputs"]:
+            for code, text in {of["code"]: of["text"] for of in record["warnings"]}.items():
+                kinds.setdefault(code, []).append(f"{record['name']}: {text}")
+        if len(self.outputs) <= _WARNED:
+            return super().warned()
+        warn(*(f"{of[0]} (a warning of this kind for {len(of)} of {len(self.outputs)} outputs)" for of in kinds.values()))
+        return self
 
     def to_frame(self) -> Any:
         """A row per factor, and per output if there are several, as a `pandas.DataFrame`."""
