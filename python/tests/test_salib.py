@@ -189,3 +189,15 @@ def test_arguments_that_are_not_there_or_out_of_range_are_named():
             g(np.array(values), **of)
     with pytest.raises(ValueError):
         g(np.array([[0.5, 0.5]]), a=[0, 1], alpha=0)
+
+
+def test_shuffled_trajectories_are_put_in_order():
+    problem = {"names": [f"x{k}" for k in range(10)], "bounds": [[0, 1]] * 10}
+    points = salib.sample.morris.sample(problem, 12, seed=1)
+    outputs = points[:, 0] * points[:, 1] + points[:, 2]
+    rows = np.random.default_rng(0).permutation(len(outputs))
+    plain, shuffled = (salib.analyze.morris.analyze(problem, points[order], outputs[order]) for order in (slice(None), rows))
+    for measure in ("mu", "mu_star", "sigma"):
+        assert np.abs(plain[measure] - shuffled[measure]).max() < 1e-12
+    with pytest.raises(ap.StudyError, match="no trajectories"):
+        salib.analyze.morris.analyze(problem, np.random.default_rng(0).random(points.shape), outputs)
