@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion_files::exchange::{
-    AnswersRequest, Format, Manifest, Missing, ReadOptions, open_table, read_answers, sample,
+    AnswersRequest, Format, Manifest, Missing, Points, ReadOptions, open_table, read_answers, sample,
 };
 use apportion_report::{run_document, stream_atomically, write_atomically};
 
@@ -33,7 +33,8 @@ unit = "nm"
 /// The first step: the points, and beside them a manifest that says whose they are.
 fn sampled(points: &Path) -> Result<(), Box<dyn Error>> {
     let study = apportion_files::parse_study(STUDY, Path::new("spring.toml"), &[])?;
-    let manifest = stream_atomically(points, |out| sample(&study, Path::new("spring.toml"), Format::Csv, out))?;
+    let rows = Points::Design(study.design());
+    let manifest = stream_atomically(points, |out| sample(&study, Path::new("spring.toml"), &rows, Format::Csv, out))?;
     Ok(write_atomically(&Manifest::path_for(points), manifest.json().as_bytes())?)
 }
 

@@ -210,3 +210,15 @@ def test_a_constant_output_has_indices_of_0_and_problems_show_their_methods():
     axes = problem.heatmap()
     assert axes.get_title() == "u" and np.array_equal(axes.images[0].get_array(), [problem.analysis["u"][key] for key in ("ST", "S1")])
     assert problem.heatmap("v", "S1").images[0].get_array().shape == (1, 2)
+
+
+def test_shuffled_trajectories_are_put_in_order():
+    problem = {"names": [f"x{k}" for k in range(10)], "bounds": [[0, 1]] * 10}
+    points = salib.sample.morris.sample(problem, 12, seed=1)
+    outputs = points[:, 0] * points[:, 1] + points[:, 2]
+    rows = np.random.default_rng(0).permutation(len(outputs))
+    plain, shuffled = (salib.analyze.morris.analyze(problem, points[order], outputs[order]) for order in (slice(None), rows))
+    for measure in ("mu", "mu_star", "sigma"):
+        assert np.abs(plain[measure] - shuffled[measure]).max() < 1e-12
+    with pytest.raises(ap.StudyError, match="no trajectories"):
+        salib.analyze.morris.analyze(problem, np.random.default_rng(0).random(points.shape), outputs)

@@ -22,14 +22,14 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     if tied.iter().all(|&pairs| pairs == 0.0) {
         return Ok(());
     }
-    let equal = Equal::new(&labels);
+    let (equal_pairs, repeated) = equal(&labels);
     let expected = all_pairs * tied.iter().map(|pairs| pairs / all_pairs).product::<f64>();
     let least_tied = tied.iter().copied().fold(f64::INFINITY, f64::min);
     let most = inputs.iter().flat_map(|(_, order)| order.iter().map(<[usize]>::len)).max().unwrap_or(0);
     let are_many = most <= MAX_ROWS_OF_A_VALUE.max(2 * inputs.len());
-    let excess = equal.pairs > 4.0 * expected + 10.0 && (are_many || equal.pairs >= 0.5 * least_tied);
-    if excess && equal.repeats as f64 > 0.02 * rows as f64 {
-        return Err(GivenError::RepeatedRows { repeated: equal.repeats, rows });
+    let excess = equal_pairs > 4.0 * expected + 10.0 && (are_many || equal_pairs >= 0.5 * least_tied);
+    if excess && repeated as f64 > 0.02 * rows as f64 {
+        return Err(GivenError::RepeatedRows { repeated, rows });
     }
     if let Some(pairs) = single_steps(&labels, &tied, all_pairs) {
         return Err(GivenError::OneAtATime { pairs, how: Alike::Consecutive, rows });
@@ -47,26 +47,12 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     Ok(())
 }
 
-/// Rows that are equal in every input.
-struct Equal {
-    /// Pairs of them.
-    pairs: f64,
-    /// Rows that equal an earlier one.
-    repeats: usize,
-}
-
-impl Equal {
-    fn new(labels: &[Vec<usize>]) -> Self {
-        let rows = labels[0].len();
-        let mut order: Vec<usize> = (0..rows).collect();
-        order.sort_unstable_by(|&a, &b| row(labels, a).cmp(row(labels, b)));
-        let (mut pairs, mut repeats) = (0.0, 0);
-        for group in order.chunk_by(|&a, &b| row(labels, a).eq(row(labels, b))) {
-            pairs += group.len() as f64 * (group.len() - 1) as f64 / 2.0;
-            repeats += group.len() - 1;
-        }
-        Self { pairs, repeats }
-    }
+/// Returns the number of pairs of rows that are equal in every input, and that of rows that equal an earlier one.
+fn equal(labels: &[Vec<usize>]) -> (f64, usize) {
+    let mut order: Vec<usize> = (0..labels[0].len()).collect();
+    order.sort_unstable_by(|&a, &b| row(labels, a).cmp(row(labels, b)));
+    let groups = order.chunk_by(|&a, &b| row(labels, a).eq(row(labels, b))).map(<[usize]>::len);
+    groups.fold((0.0, 0), |(pairs, repeats), rows| (pairs + rows as f64 * (rows - 1) as f64 / 2.0, repeats + rows - 1))
 }
 
 fn row(labels: &[Vec<usize>], row: usize) -> impl Iterator<Item = usize> {
@@ -96,11 +82,7 @@ fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<u
 /// few values, each many times.
 fn same_multiplicities(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let first = multiplicities(inputs[0].1);
-    let two_halves = match first[..] {
-        [(multiplicity, _)] => multiplicity > 1,
-        [(_, a), (_, b)] => a == b,
-        _ => false,
-    };
+    let two_halves = matches!(first[..], [(2.., _)]) || matches!(first[..], [(_, a), (_, b)] if a == b);
     // Each base point gives two values, in at most 2 d + 2 rows.
     let values = inputs[0].1.groups();
     let plausible = values >= 16 && values * (inputs.len() + 1) >= rows;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{FactorRecord, StudyRecord};
 
-/// The duration of a run, and its number of threads.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The duration of a run, and its number of threads; both 0 if it was elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RunFacts {
     /// Threads used.
     pub threads: usize,

@@ -17,20 +17,24 @@ mod measures;
 mod points;
 mod run;
 mod settings;
+mod table;
 
 #[cfg(test)]
 mod tests;
 
+use std::sync::OnceLock;
+
 pub use measures::Reading;
-use points::Trajectories;
+use points::{Move, Trajectories};
 use run::Outcome;
 use serde::{Deserialize, Serialize};
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
+pub use table::screen_table;
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, RunContext};
 use crate::result::FailureCount;
-use crate::run::Progress;
+use crate::run::{Progress, Store, TableJournal, TableRun};
 use crate::space::{Distribution, Factor, Space};
 use crate::uncertainty::{Estimate, Interval, RULE_OF_THREE};
 use apportion_base::quantity::Unlikely;
@@ -148,17 +152,62 @@ pub fn screen(
     on_progress: &(dyn Fn(Progress) + Sync),
     context: &RunContext<'_>,
 ) -> Result<Screening, ScreeningError> {
-    let factors = job.space.factors();
-    if job.space.copula().is_some() {
+    let screening = screen_by(&TableRun::new(job.model, context, threads), job, on_progress);
+    context.messages().finish();
+    screening
+}
+
+/// Returns the [`points`] of `job` as a screening with the outputs of `store`, which has all of their rows.
+///
+/// # Errors
+/// [`ScreeningError`] if the settings are invalid.
+pub fn screen_stored(job: ScreeningJob<'_>, store: Store) -> Result<Screening, ScreeningError> {
+    let (context, journal) = (RunContext::default(), TableJournal { store, open: OnceLock::new() });
+    screen_by(&TableRun::new(job.model, &context, 1).with_journal(Some(journal)), job, &|_| ())
+}
+
+/// Returns the points of a screening, trajectory by trajectory: for each factor of `space` a column of SI values.
+///
+/// # Errors
+/// [`ScreeningError`] if the settings are invalid or the factors depend on each other.
+pub fn points(space: &Space, settings: ScreeningSettings) -> Result<Vec<Vec<f64>>, ScreeningError> {
+    let (settings, _, points) = prepared(space, settings)?;
+    let moves: Vec<Vec<Move>> = (0..settings.trajectories).map(|number| points.moves(number)).collect();
+    Ok(points.columns(space.factors(), &moves, &mut vec![0; space.factors().len()]))
+}
+
+/// Returns the settings in force, the number of parts and the trajectories.
+fn prepared(
+    space: &Space,
+    settings: ScreeningSettings,
+) -> Result<(ScreeningSettings, u64, Trajectories), ScreeningError> {
+    if space.copula().is_some() {
         return Err(ScreeningError::Dependent);
     }
-    let (settings, parts) = job.settings.in_force(factors.len())?;
-    let points = Trajectories::new(job.space, &settings, parts)?;
-    let outcome = run::run(job, &points, settings.trajectories, threads, context, on_progress)?;
-    context.messages().finish();
-    let mut outputs = Vec::with_capacity(job.model.outputs().len());
-    for (number, output) in job.model.outputs().iter().enumerate() {
-        let screened = screened(job.model, number, &outcome, factors, parts as usize);
+    let (settings, parts) = settings.in_force(space.factors().len())?;
+    Ok((settings, parts, Trajectories::new(space, &settings, parts)?))
+}
+
+fn screen_by(
+    run: &TableRun<'_>,
+    job: ScreeningJob<'_>,
+    on_progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Screening, ScreeningError> {
+    let (settings, parts, points) = prepared(job.space, job.settings)?;
+    let outcome = run::run(job, &points, settings.trajectories, run, on_progress)?;
+    Ok(summary(job.space, job.model, (settings, parts), &outcome))
+}
+
+/// Returns the measures of all outputs, from effects in this number of parts.
+fn summary(
+    space: &Space,
+    model: &dyn Model,
+    (settings, parts): (ScreeningSettings, u64),
+    outcome: &Outcome,
+) -> Screening {
+    let mut outputs = Vec::with_capacity(model.outputs().len());
+    for (number, output) in model.outputs().iter().enumerate() {
+        let screened = screened(model, number, outcome, space.factors(), parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
         let unlikely = Unlikely::find(&values).map(|value| value.in_runs(value.first + 1));
         outputs.push(ScreenedOutput {
@@ -166,17 +215,11 @@ pub fn screen(
             unit: output.unit.to_string(),
             warnings: unlikely.into_iter().chain(dropped_effects(&screened)).collect(),
             factors: screened,
-            failures: failures(number, &outcome, job.space),
+            failures: failures(number, outcome, space),
         });
     }
-    Ok(Screening {
-        settings,
-        parts,
-        runs: settings.trajectories * (factors.len() as u64 + 1),
-        failed: outcome.failed,
-        outputs,
-        flags: outcome.flags,
-    })
+    let runs = outcome.values.first().map_or(0, Vec::len) as u64;
+    Screening { settings, parts, runs, failed: outcome.failed, outputs, flags: outcome.flags.clone() }
 }
 
 impl ScreenedFactor {

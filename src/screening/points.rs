@@ -104,6 +104,21 @@ impl Trajectories {
         }
     }
 
+    /// Returns a column of SI values for each factor, with the rows of these trajectories, and adds to `idle` the number of
+    /// its steps that do not change its value.
+    pub fn columns(&self, factors: &[Factor], moves: &[Vec<Move>], idle: &mut [u64]) -> Vec<Vec<f64>> {
+        let rows = factors.len() + 1;
+        let mut columns = vec![vec![0.0; rows * moves.len()]; factors.len()];
+        for (j, (column, factor)) in columns.iter_mut().zip(factors).enumerate() {
+            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(rows)) {
+                let values = values_at(factor, &moves[j].u);
+                idle[j] += u64::from(values[0] == values[1]);
+                self.fill(&moves[j], values, column);
+            }
+        }
+        columns
+    }
+
     /// Generates the moves of a star. Base point and auxiliary point are the two halves of one point. In an unscrambled
     /// sequence the halves begin with equal coordinates, which Campolongo et al. avoid by taking b from a later point;
     /// here every coordinate has its own scramble, so that b_j is independent of a_j.
@@ -161,6 +176,21 @@ impl Trajectories {
         }
         moves
     }
+}
+
+/// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range.
+fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
+    let mut values = [0.0; 2];
+    factor.fill_si(u, &mut values);
+    let (low, high) = factor.distribution().support();
+    for (value, u) in values.iter_mut().zip(u) {
+        match u {
+            0.0 => *value = factor.unit().to_si(low),
+            1.0 => *value = factor.unit().to_si(high),
+            _ => (),
+        }
+    }
+    values
 }
 
 /// Returns the coordinates of two levels, and the step between them as a part of the range.

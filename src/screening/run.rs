@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
-use crate::model::{Batch, RowFailure, RunContext};
+use crate::model::{Batch, RowFailure};
 use crate::run::{EvaluationStopped, Progress, RunError, TableRun, failed_rows};
-use crate::space::Factor;
 use apportion_base::clock::Instant;
 
 /// The results of some trajectories.
@@ -26,24 +25,21 @@ pub(super) struct Outcome {
     pub flags: Vec<u64>,
 }
 
-/// Runs `trajectories` of them in the run of `context` on at most `threads` threads (0: one per core). The outcome has
-/// the same bits on any number of threads.
+/// Evaluates `trajectories` of them by `run`. The outcome has the same bits on any number of threads.
 pub(super) fn run(
     job: ScreeningJob<'_>,
     points: &Trajectories,
     trajectories: u64,
-    threads: usize,
-    context: &RunContext<'_>,
+    run: &TableRun<'_>,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Outcome, ScreeningError> {
-    let run = TableRun::new(job.model, context, threads);
     let rows = job.space.factors().len() + 1;
     // Whole trajectories, at least one.
     let block = (run.rows_at_once() / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
     let factors = job.space.factors();
-    let (mut batch, mut columns) = (Batch::new(job.model), vec![Vec::new(); factors.len()]);
+    let mut batch = Batch::new(job.model);
     let mut outcome = Outcome {
         effects: vec![Vec::new(); job.model.outputs().len()],
         values: vec![Vec::new(); job.model.outputs().len()],
@@ -54,14 +50,7 @@ pub(super) fn run(
     for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
         let moves: Vec<Vec<Move>> = (first..last).map(|number| points.moves(number)).collect();
-        for (j, (column, factor)) in columns.iter_mut().zip(factors).enumerate() {
-            column.resize(rows * moves.len(), 0.0);
-            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(rows)) {
-                let values = values_at(factor, &moves[j].u);
-                outcome.idle[j] += u64::from(values[0] == values[1]);
-                points.fill(&moves[j], values, column);
-            }
-        }
+        let columns = points.columns(factors, &moves, &mut outcome.idle);
         batch.reset(rows * moves.len());
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         run.run(&inputs, &mut batch).map_err(|halt| match halt {
@@ -79,21 +68,6 @@ pub(super) fn run(
         on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
     }
     Ok(outcome)
-}
-
-/// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range.
-fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
-    let mut values = [0.0; 2];
-    factor.fill_si(u, &mut values);
-    let (low, high) = factor.distribution().support();
-    for (value, u) in values.iter_mut().zip(u) {
-        match u {
-            0.0 => *value = factor.unit().to_si(low),
-            1.0 => *value = factor.unit().to_si(high),
-            _ => (),
-        }
-    }
-    values
 }
 
 /// Returns the difference of the output over the step; NaN if a run failed or the quotient overflows.

@@ -1,13 +1,13 @@
 //! The settings of a screening, and their errors.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::design::{DesignError, Sampler};
 use crate::run::RunError;
 
 /// Minimum number of trajectories: with fewer there is no meaningful spread.
-const MIN_TRAJECTORIES: u64 = 4;
+pub(super) const MIN_TRAJECTORIES: u64 = 4;
 /// Maximum number of model runs of a screening: its effects are kept in memory, 8 bytes each.
 const MAX_RUNS: u64 = 1 << 27;
 
@@ -17,7 +17,7 @@ const REPLICATES: u64 = 8;
 const PARTS: u64 = 64;
 
 /// The layout of the points of a screening. All cost d + 1 runs a trajectory for d factors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "name", rename_all = "kebab-case")]
 pub enum ScreeningDesign {
     /// Radial (Campolongo, Saltelli and Cariboni 2011, Comput. Phys. Commun. 182, 978-988): from a base point a, every
@@ -54,7 +54,7 @@ impl ScreeningDesign {
 }
 
 /// The settings of a screening.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScreeningSettings {
     /// The layout of the points.
     pub design: ScreeningDesign,

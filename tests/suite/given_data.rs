@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use apportion::given::Measure;
 use apportion_report::given::GivenFile;
+use apportion_report::screening::ScreeningFile;
 
 use crate::common::{apportion, stderr, stdout, text};
 use crate::messages::{Messages, messages};
-use crate::points::{Columns, random, saltelli, sobol};
+use crate::points::{Columns, random, saltelli, shuffled, sobol, trajectories};
 
 /// A table of the columns and of their linear combination 3, 2, 1, ... as `y`.
 fn table(columns: &Columns) -> String {
@@ -133,6 +134,39 @@ fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
     assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");
     let design = table(&saltelli(3, 64, apportion::design::Sampler::Sobol, 1));
     Run::of(&design, &["--outputs", "y"]).refused(&mut messages, "a design of Saltelli");
+}
+
+#[test]
+fn morris_trajectories_are_a_screening() {
+    let columns = trajectories(10, 16, 4, 1);
+    let run = Run::of(&table(&columns), &["--outputs", "y"]);
+    assert_eq!(run.output.status.code(), Some(0), "{}", stderr(&run.output));
+    let file: ScreeningFile =
+        serde_json::from_slice(&std::fs::read(run.out().join("table-screen.json")).unwrap()).unwrap();
+    assert_eq!((file.provenance.trajectories, file.provenance.seed), (16, None));
+    for (factor, slope) in file.outputs[0].factors.iter().zip((1..=10).rev()) {
+        let [mu, mu_star, sigma] = [factor.mu, factor.mu_star, factor.sigma].map(|of| of.unwrap());
+        // The range has three steps.
+        assert!((mu.estimate - 3.0 * f64::from(slope)).abs() < 1e-9 && (mu_star.estimate - mu.estimate).abs() < 1e-9);
+        assert!(sigma.estimate < 1e-9 && mu_star.interval.is_some() && factor.effects == 16);
+    }
+    let mut messages = messages!();
+    Run::of(&table(&shuffled(columns.clone(), 1)), &["--outputs", "y"]).refused(&mut messages, "shuffled");
+    Run::of(&table(&columns), &["--outputs", "y", "--measures"]).refused(&mut messages, "with measures");
+}
+
+#[test]
+fn two_classes_are_zero_and_one() {
+    let columns = random(2, 60, 2);
+    let classes = |[no, yes]: [&str; 2]| {
+        let class = |k: usize| if columns[0][k] > 0.4 { yes } else { no };
+        let line = |k: usize| format!("{},{},{}\n", columns[0][k], columns[1][k], class(k));
+        let table = format!("a,b,y\n{}", (0..60).map(line).collect::<String>());
+        Run::of(&table, &["--outputs", "y"]).result().outputs
+    };
+    for words in [["invalid", "valid"], ["No", "Yes"], ["FALSE", "true"]] {
+        assert_eq!(classes(words), classes(["0", "1"]));
+    }
 }
 
 #[test]

@@ -103,6 +103,40 @@ fn failed_runs_are_reported_with_their_factors() {
 }
 
 #[test]
+fn a_model_outside_is_screened_in_three_steps() {
+    let folder = Folder::new();
+    let study = study_path("soft-cantilever");
+    let out = folder.path("out");
+    for (design, more) in [("radial", &[][..]), ("trajectory", &["--set", "design.seed=7"])] {
+        let points = folder.path("points.csv");
+        let sample = ["sample", text(&study), "--screening", design, "--trajectories", "12", "-o", text(&points)];
+        succeed(&[&sample[..], more].concat());
+        let outputs = folder.path(&format!("{design}.csv"));
+        succeed(&["evaluate", text(&study), text(&points), "-o", text(&outputs)]);
+        succeed(&["analyze", text(&outputs), "--design", text(&points), "--out", text(&out), "--force"]);
+        let (_folder, here, _) =
+            screened("soft-cantilever", &[&["--design", design, "--trajectories", "12"], more].concat());
+        let file: ScreeningFile = serde_json::from_str(&read(&out, "soft-cantilever-screen.json")).unwrap();
+        // The outputs were written in nN: the last bits differ.
+        for (a, b) in file.outputs[0].factors.iter().zip(&here.outputs[0].factors) {
+            let [a_mu, b_mu] = [a, b].map(|factor| factor.mu_star.unwrap());
+            assert_eq!((&a.factor, a.rank, a.effects, a.reading), (&b.factor, b.rank, b.effects, b.reading));
+            assert!((a_mu.estimate - b_mu.estimate).abs() <= 1e-12 * b_mu.estimate, "{design}: {a_mu:?} {b_mu:?}");
+            assert!(
+                (a_mu.interval.unwrap().high / b_mu.interval.unwrap().high - 1.0).abs() < 1e-9 || b_mu.estimate == 0.0
+            );
+        }
+        assert_eq!(file.provenance.model_runs, here.provenance.model_runs);
+    }
+    let lines = read(&folder.path(""), "trajectory.csv");
+    let short = folder.with("short.csv", lines.lines().take(9).collect::<Vec<_>>().join("\n"));
+    let mut messages = messages!();
+    let points = folder.path("points.csv");
+    messages.refused(&["analyze", text(&short), "--design", text(&points), "--out", text(&out)]);
+    messages.refused(&["sample", text(&study), "--screening", "--trajectories", "2"]);
+}
+
+#[test]
 fn a_sweep_shows_curves_and_ranges() {
     let (folder, file, table) = swept("coulomb-general", &["--points", "11"]);
     assert_eq!((file.format.as_str(), file.version), ("apportion-sweep", 2));

@@ -142,7 +142,7 @@ pub fn measures(
     indices: &GivenIndices,
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
-    let is_random = indices.points == PointSet::Independent;
+    let is_random = indices.points == PointSet::Independent && indices.effective_rows.is_none();
     let outputs = outputs.iter().enumerate().map(|(number, output)| {
         let setting = Setting { seed, number: number as u64, has_p_values: is_random, has_intervals: is_random };
         Ok(Job::new(&output.values, &Measure::ALL, setting)?.measures(inputs))

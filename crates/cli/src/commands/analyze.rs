@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use apportion::Warning;
+use apportion::result::RunFacts;
+use apportion::screening::{ScreeningJob, ScreeningSettings, screen_stored};
 use apportion_base::files::read_text;
 use apportion_base::quantity::{Unit, Unlikely};
 use apportion_files::exchange::{Answers, AnswersRequest, Manifest, Missing, open_table, read_answers};
+use apportion_report::screening::{build_screening, screening_document};
 
-use super::output::OutputArguments;
+use super::output::{self, OutputArguments};
 use super::run::{deliver, with_inputs};
 use super::table::{TableArguments, say_of_table};
 use super::{Threads, say, say_notes};
@@ -48,12 +51,20 @@ fn output_unit(text: &str) -> Result<(String, Unit), String> {
 }
 
 pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
-    let Answers { study, store, .. } = answers(arguments)?;
-    let unlikely = study.unlikely_outputs(&store);
+    let (Answers { study, store, .. }, screening) = answers(arguments)?;
     say_notes(&study);
     let inputs = study.files().into_iter().chain([arguments.data.clone(), manifest_path(arguments)?]);
     let inputs = inputs.chain(arguments.design.clone()).collect();
-    let artefacts = arguments.output.artefacts(study.name(), inputs).prepare(study.name())?;
+    let ending = if screening.is_some() { "-screen" } else { "" };
+    let artefacts = arguments.output.artefacts(study.name(), inputs).prepare(&format!("{}{ending}", study.name()))?;
+    if let Some(settings) = screening {
+        let model = study.model();
+        let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
+        let screening = screen_stored(job, store)?;
+        let file = build_screening(&study, model.as_ref(), &screening, RunFacts::default());
+        return output::deliver(&artefacts, &screening_document(&file));
+    }
+    let unlikely = study.unlikely_outputs(&store);
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {
@@ -65,8 +76,8 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     deliver(&study, &artefacts, &result)
 }
 
-/// The outputs of a design that `sample` wrote.
-fn answers(arguments: &Arguments) -> anyhow::Result<Answers> {
+/// The outputs of a design that `sample` wrote, and the settings of the screening, if it is one.
+fn answers(arguments: &Arguments) -> anyhow::Result<(Answers, Option<ScreeningSettings>)> {
     let path = manifest_path(arguments)?;
     let text = read_text(&path).map_err(|error| format!("cannot read the manifest: {error}")).in_file(&path)?;
     let manifest = Manifest::parse(&text).in_file(&path)?;
@@ -79,7 +90,7 @@ fn answers(arguments: &Arguments) -> anyhow::Result<Answers> {
         0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
-    Ok(answers)
+    Ok((answers, manifest.screening()))
 }
 
 /// The manifest that was named, or the one next to the points.

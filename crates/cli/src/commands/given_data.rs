@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use apportion::given::{Column, analyse, average_replicates, measures, surrogate_indices};
+use apportion::result::RunFacts;
+use apportion::screening::screen_table;
 use apportion::{Distribution, Study};
 use apportion_base::digest::sha256;
 use apportion_base::files::read_whole;
 use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion_report::given::{GivenFacts, build_given, given_document};
+use apportion_report::screening::{build_screening, screening_document};
 
 use super::output::{OutputArguments, deliver, stem};
 use super::table::{TableArguments, say_of_table};
@@ -68,6 +71,14 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let name = stem(path);
     let files = study.iter().flat_map(Study::files).chain([path.to_owned()]).collect();
     let artefacts = arguments.output.artefacts(&name, files);
+    let is_plain = study.is_none() && !arguments.measures;
+    if let Some((study, screening)) = is_plain.then(|| screen_table(&name, &inputs, &outputs)).flatten() {
+        let mut file = build_screening(&study, study.model().as_ref(), &screening, RunFacts::default());
+        file.provenance.seed = None;
+        file.notes
+            .push("the rows are Morris trajectories: effects are per range of the values in the table".to_owned());
+        return deliver(&artefacts, &screening_document(&file));
+    }
     let replicates = average_replicates(&mut inputs, &mut outputs).in_file(path)?;
     let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
     let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;

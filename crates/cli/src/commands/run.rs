@@ -9,7 +9,7 @@ use apportion::result::{OutputResult, StudyResult};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 use apportion_base::digest::sha256_of_file;
-use apportion_files::exchange::{Format, write_rows};
+use apportion_files::exchange::{Format, Points, write_rows};
 use apportion_report::{Artefacts, FileList, prepare_file, run_document, stream_atomically};
 
 use super::output::{self, OutputArguments};
@@ -149,7 +149,9 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 fn save(study: &Study, result: &StudyResult, (path, format, store): &(&PathBuf, Format, Store)) -> anyhow::Result<()> {
     let settings = study.design().settings();
     let design = study.design().with_points(result.provenance.base_samples / settings.replicates)?;
-    stream_atomically(path, |out| write_rows(study, &design, Some(store), *format, &mut Stoppable::new(out)))?;
+    stream_atomically(path, |out| {
+        write_rows(study, &Points::Design(&design), Some(store), *format, &mut Stoppable::new(out))
+    })?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use apportion::design::Sampler;
 use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
@@ -40,16 +41,21 @@ pub struct Arguments {
 impl Arguments {
     fn settings(&self, study: &Study) -> anyhow::Result<ScreeningSettings> {
         let in_study = study.design().settings();
-        let design = match (&*self.design, self.levels) {
-            ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
-            (_, Some(levels)) => {
-                let message = "--levels has no effect on the radial design: add --design trajectory";
-                return Err(bad_input(format!("--levels {levels}: {message}")));
-            }
-            _ => ScreeningDesign::Radial { sampler: in_study.sampler },
-        };
+        if let (Some(levels), "radial") = (self.levels, &*self.design) {
+            let message = "--levels has no effect on the radial design: add --design trajectory";
+            return Err(bad_input(format!("--levels {levels}: {message}")));
+        }
+        let design = screening_design(&self.design, self.levels, in_study.sampler);
         let seed = self.seed.unwrap_or(in_study.seed);
         Ok(ScreeningSettings { design, trajectories: self.trajectories, seed })
+    }
+}
+
+/// The design of that name.
+pub fn screening_design(name: &str, levels: Option<u32>, sampler: Sampler) -> ScreeningDesign {
+    match name {
+        "trajectory" => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
+        _ => ScreeningDesign::Radial { sampler },
     }
 }
 

@@ -11,7 +11,7 @@ use apportion_base::names::{refused_output_name, shown};
 use apportion_base::quantity::{Unit, is_same};
 
 use super::counter::{is_called_counter, read_numbered};
-use super::design_rows::{add_rows, each_block, factor_column};
+use super::design_rows::{Points, add_rows, each_block, factor_column};
 use super::error::{TableError, refused};
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, RowReader};
@@ -52,14 +52,17 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let columns = Columns::find(reader, &study, request)?;
     let subject = subject(&study, &columns.outputs, request)?;
     study = study.with_subject(subject);
-    let (space, design, model) = (study.space(), study.design(), study.model());
+    let (space, model) = (study.space(), study.model());
+    let points = Points::from_study(&study, request.manifest.screening());
+    let points = points.map_err(|error| TableError::Refused(error.to_string()))?;
     let store = Store::new(model.as_ref());
     let wanted = columns.wanted(space);
-    let numbered = read_numbered(reader, &wanted, design.rows())?;
+    let total = points.rows();
+    let numbered = read_numbered(reader, &wanted, total)?;
     let is_complete = numbered.as_ref().is_none_or(|rows| rows.missing == 0);
     let missing = if is_complete { request.missing } else { Missing::Drop };
     let (mut cells, mut digest, mut row) = (vec![Vec::new(); wanted.len()], Sha256::default(), 0);
-    each_block(space, design, |replicate, rows, points| {
+    each_block(space, &points, |replicate, rows, points| {
         add_rows(&mut digest, points);
         let expected = (rows.end - rows.start) as usize;
         let count = match &numbered {
@@ -81,7 +84,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         }
         row += count as u64;
         if count < expected {
-            return refused(format!("the file has {row} rows, but the design has {}", design.rows()));
+            return refused(format!("the file has {row} rows, but the design has {total}"));
         }
         let mut block = RowBlock { replicate, first: rows.start, ..RowBlock::default() };
         fill(&mut block, model.outputs(), answers, missing, row - count as u64)?;
@@ -89,13 +92,13 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
         Ok(())
     })?;
     if numbered.is_none() && reader.read(&wanted, 1, &mut cells)? > 0 {
-        return refused(format!("the file has more rows than the design, which has {}", design.rows()));
+        return refused(format!("the file has more rows than the design, which has {total}"));
     }
     // Values that agree to ten digits may still belong to another version: those of the study are used.
     request.manifest.check_points(&digest.finish())?;
     let compared = columns.factors.iter().map(|&(_, factor)| space.factors()[factor].name.clone()).collect();
     let flags = model.flags().iter().any(|flag| !flag.warns) && !study.subject().is_external();
-    drop(model);
+    drop((model, points));
     if let Some(rows) = numbered {
         study.note(format!("the rows of the file are in the order of its column `{}`", rows.name));
         if rows.missing > 0 {

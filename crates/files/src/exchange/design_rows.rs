@@ -7,6 +7,7 @@ use std::path::Path;
 use apportion::design::Design;
 use apportion::model::Output;
 use apportion::run::{RowValues, Store};
+use apportion::screening::{self, ScreeningError, ScreeningSettings};
 use apportion::space::{Factor, Space};
 use apportion::study::Study;
 use apportion_base::digest::Sha256;
@@ -18,14 +19,49 @@ use super::rows::{ColumnKind, Format, RowWriter};
 /// Approximate number of rows of a block.
 const BLOCK: u64 = 1 << 13;
 
-/// Computes the rows of `design`, whose factors are those of `space`, in the order of [`Design::locate`], and passes
+/// The rows of a file of points.
+pub enum Points<'a> {
+    /// Those of a design.
+    Design(&'a Design),
+    /// Those of a screening with these settings: for each factor a column of SI values.
+    Screening(ScreeningSettings, Vec<Vec<f64>>),
+}
+
+impl<'a> Points<'a> {
+    /// Returns those of a screening of `study`, or else of its design.
+    ///
+    /// # Errors
+    /// [`ScreeningError`] if the settings are invalid or the factors depend on each other.
+    pub fn from_study(study: &'a Study, screening: Option<ScreeningSettings>) -> Result<Self, ScreeningError> {
+        let Some(settings) = screening else { return Ok(Self::Design(study.design())) };
+        Ok(Self::Screening(settings, screening::points(study.space(), settings)?))
+    }
+
+    /// Returns their number.
+    pub fn rows(&self) -> u64 {
+        match self {
+            Self::Design(design) => design.rows(),
+            Self::Screening(_, columns) => columns.first().map_or(0, Vec::len) as u64,
+        }
+    }
+}
+
+/// Computes the rows of `points`, whose factors are those of `space`, in the order of [`Design::locate`], and passes
 /// them to `see` block by block: the replicate, the rows in it, and a column for each factor in its own unit. Only one
 /// block is in memory.
 pub(super) fn each_block<E>(
     space: &Space,
-    design: &Design,
+    points: &Points<'_>,
     mut see: impl FnMut(u64, Range<u64>, &mut [Vec<f64>]) -> Result<(), E>,
 ) -> Result<(), E> {
+    let design = match points {
+        Points::Design(design) => design,
+        Points::Screening(_, columns) => {
+            let columns = columns.iter().zip(space.factors());
+            let in_units = columns.map(|(si, factor)| si.iter().map(|si| at_the_edge(factor.unit(), *si)).collect());
+            return see(0, 0..points.rows(), &mut in_units.collect::<Vec<_>>());
+        }
+    };
     let (runs, points) = (design.rows_per_point(), design.points_per_replicate());
     let step = (BLOCK / runs).max(1);
     let (mut row_values, mut columns) = (RowValues::default(), vec![Vec::new(); design.factors()]);
@@ -73,17 +109,24 @@ pub(super) fn add_rows(digest: &mut Sha256, columns: &[Vec<f64>]) {
     digest.update(&bytes);
 }
 
-/// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit,
-/// and returns the manifest to be written next to it. Uses constant memory.
+/// Writes these points of `study` (read from `study_file`) to `out`, a column for each factor in its unit,
+/// and returns the manifest to be written next to it. Those of a design use constant memory.
 ///
 /// # Errors
 /// Any error of the file system.
-pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
-    let digest = write_rows(study, study.design(), None, format, out)?;
-    Ok(Manifest::new(study, study_file, digest))
+pub fn sample(
+    study: &Study,
+    study_file: &Path,
+    points: &Points<'_>,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<Manifest> {
+    let screening = if let Points::Screening(settings, _) = points { Some(*settings) } else { None };
+    let digest = write_rows(study, points, None, format, out)?;
+    Ok(Manifest::new(study, study_file, screening, digest))
 }
 
-/// Writes the rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
+/// Writes the rows of `points`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
 /// numbers.
 ///
 /// With a store, each row is followed by its outputs in their units; a failed output is an empty cell (CSV) or NaN
@@ -93,17 +136,17 @@ pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Wr
 /// An error of the operating system, or rows that are missing in the store.
 pub fn write_rows(
     study: &Study,
-    design: &Design,
+    points: &Points<'_>,
     store: Option<&Store>,
     format: Format,
     out: &mut dyn Write,
 ) -> std::io::Result<String> {
     let (space, model) = (study.space(), study.model());
     let outputs = if store.is_some() { model.outputs() } else { &[] };
-    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), design.rows())?;
+    let mut writer = RowWriter::new(format, out, columns(space.factors(), outputs), points.rows())?;
     let mut answers = vec![Vec::new(); outputs.len()];
     let mut digest = Sha256::default();
-    each_block(space, design, |replicate, rows, points| {
+    each_block(space, points, |replicate, rows, points| {
         add_rows(&mut digest, points);
         if let Some(store) = store {
             let block = store.block(replicate, rows);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use apportion::design::Matrix;
+use apportion::screening::ScreeningSettings;
 use apportion::study::{Study, Target};
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +65,9 @@ struct ManifestDesign {
     layout: Vec<ManifestRun>,
     /// SHA-256 of the numbers, row by row, each as a little-endian double.
     sha256: String,
+    /// Settings of the screening, if the rows are its trajectories: then those above are of the study's own design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    screening: Option<ScreeningSettings>,
 }
 
 /// A row of a base sample: that of the matrix `base`, with `columns` from the matrix `from`.
@@ -97,7 +101,7 @@ const VERSION: u32 = 1;
 
 impl Manifest {
     /// Creates the manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
-    pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
+    pub fn new(study: &Study, file: &Path, screening: Option<ScreeningSettings>, sha256: String) -> Self {
         let settings = study.design().settings();
         let factors = study.space().factors();
         let layout = study.design().runs().iter().map(|run| ManifestRun {
@@ -134,6 +138,7 @@ impl Manifest {
                     .to_owned(),
                 layout: layout.collect(),
                 sha256,
+                screening,
             },
             factors: factors.collect(),
             file_sha256: String::new(),
@@ -143,6 +148,11 @@ impl Manifest {
     /// Returns whether it describes the design of the study of that name, in a file with that SHA-256.
     pub fn describes(&self, study: &str, sha256: &str) -> bool {
         self.study.name == study && self.file_sha256 == sha256
+    }
+
+    /// Returns the settings of the screening whose points are in the file; `None` for the points of a design.
+    pub fn screening(&self) -> Option<ScreeningSettings> {
+        self.design.screening
     }
 
     /// Returns the path of the manifest of the design file `design`: next to it.
@@ -195,7 +205,7 @@ impl Manifest {
                 "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {actual}, not {sha256}"
             ));
         }
-        if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {
+        if self.design != Self::new(&study, Path::new(file), self.screening(), self.design.sha256.clone()).design {
             return refused(
                 "the design of the manifest is not that of its study: it was changed after `sample` wrote it",
             );

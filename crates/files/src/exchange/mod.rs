@@ -14,7 +14,7 @@ mod rows;
 mod table;
 
 pub use answers::{Answers, AnswersRequest, read_answers};
-pub use design_rows::{factor_column, sample, write_rows};
+pub use design_rows::{Points, factor_column, sample, write_rows};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;

@@ -34,7 +34,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
     rows.extend(provenance.levels.iter().map(|levels| ("levels", levels.to_string())));
     rows.extend([
         ("trajectories", grouped(provenance.trajectories)),
-        ("seed", provenance.seed.to_string()),
+        ("seed", or_dash(provenance.seed, |seed| seed.to_string())),
         ("model runs", grouped(provenance.model_runs)),
         ("runs that failed", grouped(provenance.failed_runs)),
         ("threads", provenance.threads.to_string()),

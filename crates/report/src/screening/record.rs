@@ -50,8 +50,8 @@ pub struct ScreeningProvenance {
     pub trajectories: u64,
     /// Number of independent parts on which the intervals are based.
     pub parts: u64,
-    /// Seed of the design.
-    pub seed: u64,
+    /// Seed of the design; `null` for points from a table.
+    pub seed: Option<u64>,
     /// Runs of the model, r (d + 1).
     pub model_runs: u64,
     /// Runs that failed in at least one output.
@@ -96,7 +96,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         shortest_step: sampler.map(|_| ScreeningSettings::MIN_STEP),
         trajectories: settings.trajectories,
         parts,
-        seed: settings.seed,
+        seed: Some(settings.seed),
         model_runs: screening.runs,
         failed_runs: screening.failed,
         threads: facts.threads,

@@ -93,7 +93,8 @@ impl ColumnKind {
     }
 
     /// Returns the number in a cell of text: of a label, or of its number; for a column of numbers any number,
-    /// infinities too, and 1 and 0 for `true` and `false`. `None` if it is neither; NaN if the value is missing.
+    /// infinities too, and 1 and 0 for `true` and `false`, `yes` and `no`, `valid` and `invalid`. `None` if it is neither; NaN
+    /// if the value is missing.
     fn value(&self, cell: &str) -> Option<f64> {
         const MISSING: [&str; 9] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-", "."];
         if let Some(value) = self.value_of(cell) {
@@ -102,11 +103,14 @@ impl ColumnKind {
         if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) || is_error_word(cell) || is_printed_nan(cell) {
             return Some(f64::NAN);
         }
-        match cell {
-            "true" | "True" | "TRUE" if self.labels.is_empty() => Some(1.0),
-            "false" | "False" | "FALSE" if self.labels.is_empty() => Some(0.0),
-            cell => number(cell).filter(|value| self.labels.is_empty() || self.label(*value).is_some()),
+        if !self.labels.is_empty() {
+            return number(cell).filter(|value| self.label(*value).is_some());
         }
+        number(cell).or_else(|| match &*cell.to_ascii_lowercase() {
+            "true" | "yes" | "valid" => Some(1.0),
+            "false" | "no" | "invalid" => Some(0.0),
+            _ => None,
+        })
     }
 
     fn expected(&self) -> String {
