@@ -27,10 +27,10 @@ def identity_of(function: Callable[..., Any], quantiles: Iterable[Any], version:
     _feed(digest, "a factor", tuple(quantile.identity() for quantile in quantiles), ())
     if version is None:
         _feed(digest, "the function", function, ())
-    return f"{_name_of(function)} version {version} {digest.hexdigest()[:16]}"
+    return f"{name_of(function)} version {version} {digest.hexdigest()[:16]}"
 
 
-def _name_of(value: Any) -> str:
+def name_of(value: Any) -> str:
     named = getattr(value, "func", value)
     return f"{getattr(named, '__module__', None)}.{getattr(named, '__qualname__', type(named).__qualname__)}"
 
@@ -64,7 +64,7 @@ def _feed(digest: Any, where: str, value: Any, above: tuple[int, ...]) -> None:
             # Empty until its variable is set.
             parts(name, *([cell.cell_contents] if cell != types.CellType() else []), where=f"{where} in {name}")
     elif isinstance(value, _BY_NAME):
-        digest.update(f"{_name_of(value)} {getattr(value, '__name__', value)};".encode())
+        digest.update(f"{name_of(value)} {getattr(value, '__name__', value)};".encode())
     elif hasattr(value, "__wrapped__"):
         parts(value.__wrapped__)
     else:

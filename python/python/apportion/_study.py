@@ -16,6 +16,7 @@ from ._distributions import Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere, workers_of
 from ._functions import Call, reason_of, unnamed, with_hint
+from ._identity import name_of
 from ._keys import (
     RUN,
     AnalysisOptions,
@@ -324,7 +325,7 @@ class Study:
             return None
         if executor is not None:
             in_flight = workers_of(executor, in_flight)
-        version = self._call.identity(self._version) if is_kept else ""
+        version = self._call.identity(self._version) if is_kept else self._version or name_of(self._call.function)
         self._learn()
         call, workers = self._here, 0
         if executor is not None:
