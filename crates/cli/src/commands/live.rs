@@ -164,7 +164,9 @@ impl LiveStudy {
     /// Builds the page with the result of a first run.
     fn page(&self, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
         let Some(engine) = ENGINE else {
-            anyhow::bail!("live pages need assets/web/engine.wasm.gz, which `just engine` makes: build the program with it");
+            anyhow::bail!(
+                "live pages need assets/web/engine.wasm.gz, which `just engine` makes: build the program with it"
+            );
         };
         let study = &self.study;
         let result = study.runner().threads(threads).stop(stop).run()?;
