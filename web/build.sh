@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Compiles the engine to WebAssembly for the pages of `apportion live`: gzip in base64.
+# Compiles the engine to WebAssembly for the pages of `apportion live`: in gzip.
 #
-#     web/build.sh            writes assets/web/engine.b64
+#     web/build.sh            writes assets/web/engine.wasm.gz (`just engine`)
 #     web/build.sh FOLDER     writes it to FOLDER instead
 #
 # To be run for a release, and when a number on a page changes: `tests/browser/live.py --bits` compares the pages' numbers
@@ -20,5 +20,5 @@ CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target was
 # zopfli writes gzip that is a twentieth smaller.
 pack=(gzip -9nc)
 command -v zopfli >/dev/null && pack=(zopfli -c)
-"${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" | base64 -w 0 >"$folder/engine.b64"
-echo "wrote $folder/engine.b64, $(wc -c <"$folder/engine.b64") bytes"
+"${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" >"$folder/engine.wasm.gz"
+echo "wrote $folder/engine.wasm.gz, $(wc -c <"$folder/engine.wasm.gz") bytes"

@@ -7,7 +7,7 @@ program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, 
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
 with several outputs, and of one with series: that one of them is shown. Of one with factors of all kinds: ranges that are narrow, or have
 no slider. Further: copies while the run doubles, the focus and the steps of undo, a phone, slow drawing, links that are nonsense, paper.
-With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
+With `--engine` the pages have that engine (`engine.wasm.gz`) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
 """
@@ -595,7 +595,7 @@ def main():
                 page = pages[name].read_text()
                 begin = page.index('id="engine">') + len('id="engine">')
                 end = page.index("</script>", begin)
-                pages[name].write_text(page[:begin] + arguments.engine.read_text() + page[end:])
+                pages[name].write_text(page[:begin] + base64.b64encode(arguments.engine.read_bytes()).decode() + page[end:])
             else:
                 size = pages[name].stat().st_size
                 expect(size <= LARGEST_PAGE, f"{name}: the page has {size} bytes, more than {LARGEST_PAGE}")

@@ -94,4 +94,13 @@ pub(super) fn edge(symbol: &str) -> Unit {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_is_known() {
+        for output in AfmOutput::ALL {
+            assert!(Unit::parse(output.row().0).is_ok());
+        }
+    }
+}

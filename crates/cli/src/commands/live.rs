@@ -8,6 +8,7 @@ use apportion_files::{ModelKind, edited};
 use apportion_report::document::{DataFile, Document, Link, Part, Section, symbols};
 use apportion_report::{Subject, output_document, prepare_folder, prepare_outputs, write_atomically};
 use askama::Template;
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use serde_json::{Value, json};
 use toml_edit::{DocumentMut, Item};
 
@@ -47,8 +48,14 @@ pub fn live(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The engine, compiled to WebAssembly by `web/build.sh`: gzip in base64.
-const ENGINE: &str = include_str!("../../../../assets/web/engine.b64");
+/// The engine, compiled to WebAssembly by `web/build.sh`, in gzip; `None` where `build.rs` did not find it.
+#[cfg(page_engine)]
+const ENGINE: Option<&[u8]> = Some(include_bytes!("../../../../assets/web/engine.wasm.gz"));
+#[cfg(not(page_engine))]
+const ENGINE: Option<&[u8]> = None;
+
+/// Whether this program can write live pages.
+pub const CAN_WRITE_PAGES: bool = ENGINE.is_some();
 
 /// The studies that a page of the nanoparticle offers in addition to its own.
 const PRESETS: [(&str, &str); 4] = [
@@ -80,7 +87,7 @@ struct Page<'a> {
     script: String,
     beginning: &'static str,
     worker: &'static str,
-    engine: &'static str,
+    engine: String,
     version: &'static str,
 }
 
@@ -156,6 +163,11 @@ impl LiveStudy {
 
     /// Builds the page with the result of a first run.
     fn page(&self, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
+        let Some(engine) = ENGINE else {
+            anyhow::bail!(
+                "live pages need assets/web/engine.wasm.gz, which `just engine` makes: build the program with it"
+            );
+        };
         let study = &self.study;
         let result = study.runner().threads(threads).stop(stop).run()?;
         let document = output_document(&result, Subject::find(&result, None));
@@ -183,7 +195,7 @@ impl LiveStudy {
             )),
             beginning: include_str!("../../templates/live/begin.js"),
             worker: include_str!("../../templates/live/worker.js"),
-            engine: ENGINE,
+            engine: BASE64_STANDARD.encode(engine),
             version: env!("CARGO_PKG_VERSION"),
         };
         Ok(page.render()?)

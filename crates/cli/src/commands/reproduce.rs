@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::live::{add_live_page, live_page};
+use super::live::{CAN_WRITE_PAGES, add_live_page, live_page};
 use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
@@ -60,7 +60,7 @@ pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
         reproduction.percentages = percentages(effort, threads)?;
     }
     let mut document = document(&reproduction);
-    if arguments.only.is_none() {
+    if arguments.only.is_none() && CAN_WRITE_PAGES {
         // The live page begins with all eight factors.
         add_live_page(&mut document, LIVE, live_page(&general_study(), threads, on_signal())?);
     }
