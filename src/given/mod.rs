@@ -91,7 +91,8 @@ pub enum GivenError {
     #[error(
         "the rows are those of a one-at-a-time design (such as Morris trajectories, or sweeps around a base point): {pairs} \
          {}. They are not independent draws, and indices from them would be wrong. Analyse the design as such (Morris \
-         trajectories in their order: `given-data` without a study and measures, or `apportion.salib.analyze.morris` in Python), or keep only rows that were drawn at random", how.in_words(*rows)
+         trajectories in their order: `given-data` without a study and measures, or `apportion.salib.analyze.morris` in \
+         Python), or keep only rows that were drawn at random", how.in_words(*rows)
     )]
     OneAtATime {
         /// Rows, or pairs of them.

@@ -13,7 +13,7 @@ use crate::study::{ExternalSubject, Study, StudyBuilder};
 use apportion_base::quantity::Unit;
 
 /// Returns the screening that a table has: Morris trajectories, one after the other, in which each step moves one input, and
-/// each moves once at most. Effects are per range of the values of an input, as which its factor is uniform in the study
+/// each moves once in most of them. Effects are per range of the values of an input, as which its factor is uniform in the study
 /// called `name`. `None` for other rows.
 pub fn screen_table(name: &str, inputs: &[Column], outputs: &[Column]) -> Option<(Study, Screening)> {
     let (rows, d) = (inputs.first()?.values.len(), inputs.len());
@@ -48,6 +48,10 @@ pub fn screen_table(name: &str, inputs: &[Column], outputs: &[Column]) -> Option
                 effects[first / (d + 1) * d + j] = (output.values[row] - output.values[row - 1]) / step;
             }
         }
+    }
+    // Rows that merely repeat each other move little.
+    if outcome.idle.iter().any(|idle| 2 * idle > trajectories as u64) {
+        return None;
     }
     let levels: BTreeSet<u64> = inputs[0].values.iter().map(|value| value.to_bits()).collect();
     // Equal parts, each of one trajectory unless there are very many.

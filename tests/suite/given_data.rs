@@ -151,6 +151,8 @@ fn morris_trajectories_are_a_screening() {
         assert!(sigma.estimate < 1e-9 && mu_star.interval.is_some() && factor.effects == 16);
     }
     let mut messages = messages!();
+    let repeated: Columns = random(3, 40, 1).iter().map(|of| of.iter().flat_map(|x| [*x; 4]).collect()).collect();
+    Run::of(&table(&repeated), &["--outputs", "y"]).refused(&mut messages, "four times each row");
     Run::of(&table(&shuffled(columns.clone(), 1)), &["--outputs", "y"]).refused(&mut messages, "shuffled");
     Run::of(&table(&columns), &["--outputs", "y", "--measures"]).refused(&mut messages, "with measures");
 }
