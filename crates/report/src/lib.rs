@@ -1,5 +1,7 @@
 //! Results as documents: [`run_document`] and similar functions build them, [`Artefacts`] writes their files.
 
+#![deny(clippy::disallowed_methods)]
+
 mod artefacts;
 mod atomic_write;
 pub mod chart;

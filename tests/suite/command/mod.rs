@@ -1,13 +1,11 @@
 //! Programs as models, through the binary and by themselves: their answers, and their possible errors.
 
-mod answers;
 mod examples;
 mod faults;
 mod misbehaving;
 mod model;
 mod other_commands;
 mod per_run;
-mod picks;
 mod processes;
 mod record;
 mod refusals;

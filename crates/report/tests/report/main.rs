@@ -13,7 +13,6 @@ mod run_charts;
 mod run_document;
 mod study_section;
 mod symbols;
-mod terminal;
 
 use std::path::Path;
 

@@ -7,7 +7,6 @@ use apportion_report::format::PrintedEstimate;
 use apportion_report::{Subject, output_document, run_document};
 
 use super::{result, tables};
-use crate::common::study_path;
 
 fn page(result: &StudyResult) -> Document {
     run_document(result)
@@ -157,7 +156,7 @@ fn one_output_of_several_or_one_series_has_a_document_of_its_own() {
         assert_eq!(document.lead.len(), 2);
         assert!(titles(&document).contains(&"Indices"));
     }
-    let history = std::fs::read_to_string(study_path("push-history")).unwrap().replace("4096", "64");
+    let history = include_str!("../../../../studies/push-history.toml").replace("4096", "64");
     let history = result(&history);
     for name in ["force_history", "position_history"] {
         let document = output_document(&history, Subject::find(&history, Some(name)));
