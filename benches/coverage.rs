@@ -7,10 +7,10 @@
 //!   N, where "true" is the spread over the seeds;
 //! - **error**: the true standard error of the estimate over that of one net.
 //!
-//! `cargo bench --bench coverage` writes `docs/coverage.csv` and `docs/coverage.md`. The functions below the line were
+//! `cargo bench --bench coverage` writes `docs/background/coverage.csv` and `docs/background/coverage.md`. The functions below the line were
 //! not looked at when the constants of the method were chosen. `cargo bench --bench coverage -- 50` takes 50 seeds
 //! and writes nothing; `-- skewed 200` measures the functions with rare, large outputs alone, and writes
-//! `docs/coverage-skewed.csv`, of which `docs/coverage-skewed.md` tells.
+//! `docs/background/coverage-skewed.csv`, of which `docs/background/coverage-skewed.md` tells.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -254,7 +254,7 @@ fn cell(sample: &Sample, exact: &[f64], ideal: &[f64]) -> Cell {
 fn main() {
     let seeds = std::env::args().filter_map(|argument| argument.parse().ok()).next();
     let write = seeds.is_none();
-    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs");
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/background");
     if std::env::args().any(|argument| argument == "skewed") {
         let csv = skewed(seeds.unwrap_or(2 * SEEDS));
         std::fs::write(format!("{docs}/coverage-skewed.csv"), csv).expect("docs/ can be written");

@@ -1,6 +1,6 @@
 //! How often do the intervals of Shapley effects and of measures of given data hold, and how often does chance pass for influence?
 //!
-//! `cargo bench --bench coverage_measures` writes `docs/coverage-measures.md`, of 200 seeds; `-- 20` takes 20 seeds and prints it,
+//! `cargo bench --bench coverage_measures` writes `docs/background/coverage-measures.md`, of 200 seeds; `-- 20` takes 20 seeds and prints it,
 //! `-- deltas` only its last section.
 
 use std::fmt::Write as _;
@@ -397,7 +397,7 @@ fn main() {
     }
     shapley(&mut text, seeds);
     text += "\n## Measures of given data\n\nA sum of four independent normal inputs with slopes 3, 2, 1 and 0, random rows. \
-             The interval of delta is that of resamples, and its upper end includes the error of the correction for wide kernels ([how](given-data-format.md)).\n\n";
+             The interval of delta is that of resamples, and its upper end includes the error of the correction for wide kernels ([how](../reference/given-data-format.md)).\n\n";
     given(&mut text, seeds);
     text += "\n## Delta of a run\n\n`measures = [\"delta\"]` in `[analysis]`: the first rows A and B, of random points and of four nets. The \
              estimate is less what permutations put there, plus what narrower kernels in finer classes find; of an input that is idle every table in which \
@@ -407,7 +407,7 @@ fn main() {
     deltas(&mut text, seeds.min(DELTA_SEEDS));
     println!("{text}");
     if asked.is_none() {
-        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/coverage-measures.md");
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/background/coverage-measures.md");
         std::fs::write(page, text).expect("docs/ can be written");
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Coverage of the 95 % intervals and root mean square error of both estimators, averaged over the inputs, over many
 //! seeds; then the share of tables taken for quasi-random or refused, by kind of points; then the time an analysis takes.
-//! `-- coverage 40` prints the table of `docs/existing-runs.md` alone, of 40 seeds.
+//! `-- coverage 40` prints the table of `docs/guide/existing-runs.md` alone, of 40 seeds.
 
 mod given_coverage;
 #[path = "../tests/suite/points.rs"]

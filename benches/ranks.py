@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two ranks against two threads: the table of docs/scaling.md. Needs mpirun and `cargo build --release --features mpi`.
+"""Two ranks against two threads: the table of docs/guide/scaling.md. Needs mpirun and `cargo build --release --features mpi`.
 
     benches/ranks.py target/release/apportion
 """

@@ -1,6 +1,6 @@
 //! What 50 to 500 runs of a model tell, by which method.
 //!
-//! `cargo bench --bench small_budgets` writes `docs/small-budgets.md` from `small_budgets.md.in` (a minute or two); `-- 10` takes 10
+//! `cargo bench --bench small_budgets` writes `docs/guide/small-budgets.md` from `small_budgets.md.in` (a minute or two); `-- 10` takes 10
 //! seeds and writes nothing.
 //!
 //! Errors are the root mean square, over all factors and seeds, of estimate less exact index. Where a method gives no number (it
@@ -263,7 +263,7 @@ fn main() {
     print!("{text}");
     if asked.is_none() {
         let head = include_str!("small_budgets.md.in");
-        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/small-budgets.md");
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/guide/small-budgets.md");
         std::fs::write(path, head.replace("SEEDS", &seeds.to_string()) + &text).expect("the page can be written");
     }
 }

@@ -449,7 +449,7 @@ fn write(folder: &Path, cells: &[Cell]) {
     let lines: String = cells.iter().map(Cell::to_line).collect();
     let texts = [("surrogate.csv", Cell::header() + &lines), ("surrogate.md", summary(cells))];
     let texts = texts.into_iter().map(|(name, text)| (name, text.into_bytes()));
-    for (name, bytes) in texts.chain(surrogate_charts::files(cells)) {
+    for (name, bytes) in texts.chain([surrogate_charts::file(cells)]) {
         std::fs::write(folder.join(name), bytes).expect("a file");
     }
 }

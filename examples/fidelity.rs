@@ -1,4 +1,4 @@
-//! How good is `fidelity = "auto"` of the nanoparticle? The tables of `docs/fidelity.md`.
+//! How good is `fidelity = "auto"` of the nanoparticle? The tables of `docs/background/fidelity.md`.
 //!
 //!     cargo run --release --example fidelity -- [part of a name] > tables.md
 //!

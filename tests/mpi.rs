@@ -175,13 +175,14 @@ fn a_job_with_killed_ranks_resumes_with_any_number_of_ranks() {
     assert!(result(&whole, "program") == result(&killed, "program"));
 }
 
-/// The scripts of `docs/clusters.md`, with `mpirun` instead of `srun`.
+/// The scripts of `docs/guide/clusters.md`, with `mpirun` instead of `srun`.
 #[test]
 fn the_scripts_of_the_page_run() {
     const SRUN: &str = "#!/bin/sh\nshift\nexec mpirun -n 3 \"$@\"\n";
-    let page =
-        std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/clusters.md"))
-            .unwrap();
+    let page = std::fs::read_to_string(
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/guide/clusters.md"),
+    )
+    .unwrap();
     let lines: Vec<&str> =
         page.lines().filter(|line| line.starts_with("srun --mpi") || line.starts_with("mpirun ")).collect();
     assert_eq!(lines.len(), 2, "{lines:?}");

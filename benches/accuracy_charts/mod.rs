@@ -2,7 +2,7 @@
 
 use apportion::design::Sampler;
 use apportion::estimate::{FirstOrder, Total};
-use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 
 use super::{Curve, Formula, SEEDS};
 
@@ -98,8 +98,6 @@ pub fn write(all: &[Curve]) {
         ("total", estimators(all, "total")),
     ];
     for (name, chart) in charts {
-        let svg = chart.svg();
-        super::write(&format!("{name}.svg"), svg.as_bytes());
-        super::write(&format!("{name}.png"), &png(&svg).expect("our own SVG"));
+        super::write(&format!("{name}.svg"), chart.svg().as_bytes());
     }
 }

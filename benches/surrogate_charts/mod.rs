@@ -1,6 +1,6 @@
 //! The chart of `docs/accuracy/surrogate.md`.
 
-use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 
 use super::{Cell, KINDS, METHODS};
 
@@ -60,9 +60,7 @@ pub fn errors(cells: &[Cell]) -> Chart {
     Chart::new("Errors with surrogates, and without", caption).panels(KINDS.iter().map(panel))
 }
 
-/// The chart as SVG, and as PNG.
-pub fn files(cells: &[Cell]) -> [(&'static str, Vec<u8>); 2] {
-    let svg = errors(cells).svg();
-    let png = png(&svg).expect("our own SVG");
-    [("surrogate.svg", svg.into_bytes()), ("surrogate.png", png)]
+/// The chart as a file.
+pub fn file(cells: &[Cell]) -> (&'static str, Vec<u8>) {
+    ("surrogate.svg", errors(cells).svg().into_bytes())
 }

@@ -194,7 +194,7 @@ def test_arguments_that_are_not_there_or_out_of_range_are_named():
 def test_the_page_lists_what_is_refused():
     from apportion.salib import _others
 
-    page = (Path(__file__).resolve().parents[2] / "docs/from-salib.md").read_text(encoding="utf-8")
+    page = (Path(__file__).resolve().parents[2] / "docs/guide/from-salib.md").read_text(encoding="utf-8")
     assert [name for name in _others._INSTEAD if f"`{name}`" not in page] == []
 
 

@@ -44,7 +44,7 @@ pub fn bins_for(rows: usize) -> usize {
 /// The interval is asymptotic, from the variance over the rows of the influence g^2 + 2 g e - S z^2 (e: the residual, z
 /// = g + e), corrected for the noise in g, with as many degrees of freedom as the effective number of rows, (sum of
 /// squares)^2 over the sum of fourth powers; it includes the estimate of half as many bins, which shows the error
-/// of the lines, and its upper end what a step inside of a bin leaves. Its coverage: `docs/existing-runs.md` (`cargo bench --bench given`).
+/// of the lines, and its upper end what a step inside of a bin leaves. Its coverage: `docs/guide/existing-runs.md` (`cargo bench --bench given`).
 ///
 /// A constant input has index 0 without an interval. `order` is that of the input `x`, and `z` are the outputs. Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
 /// interval.

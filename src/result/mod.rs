@@ -1,6 +1,6 @@
 //! The result of a run: one type for Rust, JSON and Python.
 //!
-//! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later
+//! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/reference/result-format.md`. Later
 //! versions of the program only add keys. Numbers are in the unit given with them; missing ones are `null`.
 
 mod distribution;

@@ -191,7 +191,7 @@ pub enum Warning {
     UnlikelyInTable(Unlikely),
     /// Repeated rows gave different outputs; `has_noise` is whether the model gets a seed with every row.
     #[error(
-        "{differing} of {rows} {} run again gave other outputs: {} (docs/stochastic-models.md)",
+        "{differing} of {rows} {} run again gave other outputs: {} (docs/guide/stochastic-models.md)",
         if *rows == 1 { "row that was" } else { "rows that were" },
         cause.explanation(*has_noise)
     )]

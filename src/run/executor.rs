@@ -20,7 +20,7 @@ const BATCH_SECONDS: f64 = 0.2;
 /// Maximum number of rows in a batch.
 const MAX_ROWS: u64 = 4096;
 
-/// Number of workers up to which batches have the target time; with more, batches are longer (`docs/scaling.md`).
+/// Number of workers up to which batches have the target time; with more, batches are longer (`docs/guide/scaling.md`).
 const WORKERS_AT_BASE_RATE: f64 = 256.0;
 
 /// Batches that a remote worker holds at once, so that it need not wait for the next one.

@@ -16,7 +16,7 @@
 //! 3): the variance is the mean of prior and spread, weighted by their degrees of freedom, and the interval is
 //! Student's t with the sum of both. The reliability of the trend was measured over fifteen functions; four nets are
 //! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
-//! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
+//! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/background/coverage.md`).
 
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
 use super::standard_error::{ErrorKind, PartInfluences, StandardError};

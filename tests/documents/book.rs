@@ -40,7 +40,7 @@ use page::Page;
 fn pages() -> Vec<PathBuf> {
     let root = crate::common::root();
     let mut found = vec![root.join("README.md"), root.join("studies/README.md"), root.join("python/README.md")];
-    for folder in ["docs", "docs/accuracy"] {
+    for folder in ["docs", "docs/guide", "docs/reference", "docs/background", "docs/accuracy"] {
         let entries = std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
         found.extend(entries.filter(|path| path.extension().is_some_and(|ending| ending == "md")));
     }

@@ -1,4 +1,4 @@
-//! The documents and the schemas, against the program as it is built. `.ci/run` runs these tests.
+//! The documents and the schemas, against the program as it is built. `just docs` runs these tests.
 
 #[cfg(unix)]
 mod book;

@@ -152,7 +152,7 @@ pub fn measures(
 
 /// Computes the measures `wanted` of one output with respect to every input, for rows that are draws from the
 /// distributions of the inputs: with the intervals of delta, which were measured to be valid for nets and Latin
-/// hypercubes too (docs/coverage-measures.md), and with p-values if they are `independent` draws.
+/// hypercubes too (docs/background/coverage-measures.md), and with p-values if they are `independent` draws.
 pub(crate) fn measures_of_rows(
     inputs: &[Column],
     output: &[f64],

@@ -68,14 +68,17 @@ fn all_warnings_say_what_was_reviewed() {
 
 #[test]
 fn every_kind_has_an_example_and_a_documented_code() {
-    let documented = include_str!("../../../docs/result-format.md");
+    let documented = include_str!("../../../docs/reference/result-format.md");
     let json = json(&examples());
     let codes: std::collections::BTreeSet<&str> =
         json.iter().map(|warning| warning["code"].as_str().unwrap()).collect();
     let kinds = include_str!("../warning.rs").matches("#[error(").count();
     assert_eq!((codes.len(), json.len()), (kinds, kinds));
     for code in codes {
-        assert!(documented.contains(&format!("| `{code}` |")), "docs/result-format.md says nothing of `{code}`");
+        assert!(
+            documented.contains(&format!("| `{code}` |")),
+            "docs/reference/result-format.md says nothing of `{code}`"
+        );
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A journal is a header, which identifies the study, and records, which are only appended, each by one write. Reading
 //! stops at a record that was cut short or damaged: it and all after it are evaluated again. The format is described in
-//! `docs/journal-format.md`.
+//! `docs/reference/journal-format.md`.
 //!
 //! [`Runner::journal`](crate::Runner::journal) writes and resumes a journal; see `examples/interrupted.rs`.
 

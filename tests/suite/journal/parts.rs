@@ -84,7 +84,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     }
 }
 
-/// The commands of `docs/clusters.md` for GNU parallel, with its replacement on this machine.
+/// The commands of `docs/guide/clusters.md` for GNU parallel, with its replacement on this machine.
 #[test]
 #[cfg(unix)]
 fn a_job_array_on_one_machine() {

@@ -223,7 +223,7 @@ fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     if pilot.is_none_or(|pilot| pilot.seconds > SLOW_RUN * design.rows() as f64) {
         let file = file.display();
         lines.push(format!(
-            "fewer runs: --runs N, or apportion screen {file} (docs/which-method.md compares the methods by the number of runs)"
+            "fewer runs: --runs N, or apportion screen {file} (docs/guide/which-method.md compares the methods by the number of runs)"
         ));
     }
     let warnings = pilot.into_iter().flat_map(|pilot| pilot_warnings(study, pilot));

@@ -160,7 +160,7 @@ impl<'a> KeptAliveWorker<'a> {
             };
             let reason = format!(
                 "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`; begin each \
-                 answer with the same number, in Python with `{change}` (other languages: docs/worker-protocol.md). Print all other output \
+                 answer with the same number, in Python with `{change}` (other languages: docs/reference/worker-protocol.md). Print all other output \
                  on standard error"
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
@@ -202,7 +202,8 @@ impl<'a> KeptAliveWorker<'a> {
         for row in session.pending.into_values() {
             if rows.suspect(row, is_alone) > self.model.settings.retries && is_alone {
                 rows.fail(row, reason);
-                let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
+                let hint =
+                    "each row begins with its number, `id`, and so does each answer: docs/reference/worker-protocol.md";
                 self.model.state.note_failure(&format!("{reason}; {hint}"))?;
             }
         }

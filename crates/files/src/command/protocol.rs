@@ -1,5 +1,5 @@
 //! The protocol between the engine and a program that is kept alive: lines of text, described in
-//! `docs/worker-protocol.md`; and rows of factor values as text, in the units of the study.
+//! `docs/reference/worker-protocol.md`; and rows of factor values as text, in the units of the study.
 
 use std::fmt::Write;
 

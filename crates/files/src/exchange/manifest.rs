@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{TableError, refused};
 
-/// The manifest of a design file, as described in `docs/exchange-formats.md`.
+/// The manifest of a design file, as described in `docs/reference/exchange-formats.md`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     /// `"apportion-design"`.

@@ -41,7 +41,7 @@ pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
 }
 
 /// Returns the samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The
-/// columns described in `docs/scene-format.md`.
+/// columns described in `docs/reference/other-formats.md`.
 pub fn scene_table(story: &SceneStory) -> Table {
     let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, (name, factor, read)| {
         rows.file(*name, |sample| factor * read(sample))
@@ -49,7 +49,7 @@ pub fn scene_table(story: &SceneStory) -> Table {
     FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, read)).into()
 }
 
-/// Formats the story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns
+/// Formats the story as JSON, format `apportion-scene`, version 1: see `docs/reference/other-formats.md`. The samples are columns
 /// of the same names, units and digits as in [`scene_table`].
 pub fn scene_json(story: &SceneStory) -> String {
     format!("{:#}\n", scene_value(story))

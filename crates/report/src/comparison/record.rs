@@ -12,7 +12,7 @@ use thiserror::Error;
 use crate::output_view::{effects, reason_in_words};
 use crate::with_unit;
 
-/// Two results compared, as described in `docs/comparison-format.md`.
+/// Two results compared, as described in `docs/reference/other-formats.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonFile {
     /// `"apportion-comparison"`.

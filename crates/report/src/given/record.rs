@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sentences;
 
-/// A result from given data, as described in `docs/given-data-format.md`.
+/// A result from given data, as described in `docs/reference/given-data-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GivenFile {
     /// `"apportion-given-data"`.

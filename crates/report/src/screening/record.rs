@@ -1,6 +1,6 @@
 //! The screening file: JSON that other programs can rely on.
 //!
-//! Format `apportion-screening`, version 1, described key by key in `docs/screening-format.md`. Later versions of the
+//! Format `apportion-screening`, version 1, described key by key in `docs/reference/other-formats.md`. Later versions of the
 //! program only add keys. A number that does not exist is `null`.
 
 use apportion::design::Sampler;

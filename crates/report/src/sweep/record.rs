@@ -1,6 +1,6 @@
 //! The sweep file: JSON that other programs can rely on.
 //!
-//! Format `apportion-sweep`, version 2, described key by key in `docs/sweep-format.md`. Later versions of the program
+//! Format `apportion-sweep`, version 2, described key by key in `docs/reference/other-formats.md`. Later versions of the program
 //! only add keys. A number that does not exist is `null`.
 
 use apportion::model::Model;

@@ -44,17 +44,17 @@ fn about(estimate: f64, half: f64) -> Estimate {
 
 /// The tables of a section, nested ones included.
 fn tables<'a>(document: &'a Document, id: &str) -> Vec<&'a Table> {
-    fn of(parts: &[Part]) -> Vec<&Table> {
+    fn nested(parts: &[Part]) -> Vec<&Table> {
         let mut tables = Vec::new();
         for part in parts {
             match part {
                 Part::Table(table) => tables.push(table),
-                Part::Details { parts, .. } | Part::OnPage(parts) => tables.extend(of(parts)),
+                Part::Details { parts, .. } | Part::OnPage(parts) => tables.extend(nested(parts)),
                 _ => (),
             }
         }
         tables
     }
     let section = document.sections.iter().find(|section| section.id == id).unwrap_or_else(|| panic!("no {id}"));
-    of(&section.parts)
+    nested(&section.parts)
 }

@@ -1,6 +1,6 @@
 //! A map of extremes as a file and as a document.
 //!
-//! Format `apportion-extremes`, version 2, described key by key in `docs/extremes.md`. Later versions only add keys.
+//! Format `apportion-extremes`, version 2, described key by key in `docs/background/extremes.md`. Later versions only add keys.
 
 use apportion::result::{StudySetup, json};
 use apportion::study::Study;

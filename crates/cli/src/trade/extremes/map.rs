@@ -1,4 +1,4 @@
-//! The map: outcomes, counts, and their reasons. Serialised unchanged, see `docs/extremes.md`.
+//! The map: outcomes, counts, and their reasons. Serialised unchanged, see `docs/background/extremes.md`.
 
 use std::collections::BTreeMap;
 

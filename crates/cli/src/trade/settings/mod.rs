@@ -2,7 +2,7 @@
 //!
 //! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
 //! part of the time allows; the error of the reference is part of every reported error. Times are measured, so they differ between
-//! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/trade.md`.
+//! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/guide/trade.md`.
 
 mod curve;
 mod document;
