@@ -13,8 +13,8 @@ use super::{Chart, ChartWidth, png};
 static FACES: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut faces = Database::new();
     for face in [
-        &include_bytes!("../../../../crates/report/fonts/ApportionSans-Regular.ttf")[..],
-        include_bytes!("../../../../crates/report/fonts/ApportionSans-Bold.ttf"),
+        &include_bytes!("../../../fonts/ApportionSans-Regular.ttf")[..],
+        include_bytes!("../../../fonts/ApportionSans-Bold.ttf"),
     ] {
         faces.load_font_data(face.to_vec());
     }
