@@ -200,7 +200,11 @@ assert abs(result.total["x1"].estimate - 0.5576) < 1e-3, result.total
 def try_wheel(path, scratch, python):
     if "linux" in path.name:
         scripts = environment_at(TARGET_DIR / "auditwheel", ["auditwheel>=6"])
-        print(output(scripts / "python", "-m", "auditwheel", "show", path))
+        shown = output(scripts / "python", "-m", "auditwheel", "show", path)
+        print(shown)
+        fits = re.search(r'platform\s+tag:\s+"(?:manylinux_2_(\d+)|musllinux)', shown)
+        if not fits or int(fits[1] or 0) > GLIBC:
+            sys.exit(f"{path.name} needs a newer system than manylinux2014, which is promised")
     run(python, "-m", "venv", scratch / "fresh")
     fresh = scratch / "fresh" / ("Scripts" if WINDOWS else "bin") / "python"
     run(fresh, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", path)
