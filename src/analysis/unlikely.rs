@@ -28,10 +28,9 @@ impl Study {
 /// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate;
 /// `sorted` has the finite ones in rising order.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[&Vec<f64>], sorted: &[f64]) -> Option<Warning> {
-    let in_unit =
-        |values: &mut dyn Iterator<Item = &f64>| values.map(|si| output.unit.from_si(*si)).collect::<Vec<f64>>();
-    let values = in_unit(&mut samples.iter().copied().flatten());
-    let unlikely = Unlikely::find_in_sorted_rows(&values, &in_unit(&mut sorted.iter()))?;
+    let values: Vec<f64> = samples.iter().copied().flatten().map(|si| output.unit.from_si(*si)).collect();
+    let sorted: Vec<f64> = sorted.iter().map(|si| output.unit.from_si(*si)).collect();
+    let unlikely = Unlikely::find_in_sorted_rows(&values, &sorted)?;
     let (mut place, mut replicate) = (unlikely.first, 0);
     while place >= samples[replicate].len() {
         place -= samples[replicate].len();

@@ -80,15 +80,15 @@ impl Unlikely {
 
     /// Returns the value that alone occurs many times.
     fn repeated(values: &[f64], sorted: &[f64]) -> Option<Self> {
-        let runs = || sorted.chunk_by(|a, b| a == b);
-        let longest = runs().max_by_key(|run| run.len())?;
-        let (value, count, of) = (longest[0], longest.len(), sorted.len());
+        let runs = sorted.chunk_by(|a, b| a == b);
+        let longest = runs.clone().max_by_key(|run| run.len())?;
+        let (value, count, of, distinct) = (longest[0], longest.len(), sorted.len(), runs.count());
         let others = range(sorted, Some(value));
         let width = others.1 - others.0;
         let beyond = (others.0 - value).max(value - others.1);
         let is_limit = (-0.0..=CUT * width).contains(&beyond);
         let is_many = count >= MIN_COUNT.max((MIN_SHARE * of as f64) as usize) && 2 * count <= of;
-        let all_differ = runs().count() >= MIN_VALUES && runs().count() - 1 == of - count;
+        let all_differ = distinct >= MIN_VALUES && distinct - 1 == of - count;
         let first = values.iter().position(|other| *other == value)?;
         (is_many && all_differ && !is_limit).then_some(Self { value, count, first, of, others })
     }
