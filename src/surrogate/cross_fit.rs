@@ -45,9 +45,7 @@ impl FittedRows {
     /// the others by Bayesian chaos, with steps and kinks.
     pub fn fitted(&self, nets: &[&[Vec<f64>]], scale: Scale) -> CrossFitted {
         let fits = CrossFits::new(self.factors.clone(), self.at_rows(nets), self.parts());
-        let families = fits.families();
-        let of_nets = fits.expansions(&families);
-        CrossFitted { scale, families, of_nets }
+        CrossFitted { scale, families: fits.families(), of_nets: fits.expansions().swap_remove(0) }
     }
 
     /// Returns for every net the expansion of each of `outputs` by the polynomials alone, in the same terms.

@@ -69,7 +69,7 @@ impl Chaos {
     /// has one sign.
     pub fn new(factors: Vec<Factor>, y: &[f64], offset: Option<f64>) -> Self {
         let parts = parts_of_rows(y.len().min(MAX_ROWS));
-        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, y.to_vec(), MAX_ORDER), None);
+        let best = Self::chosen(Prior::new(Basis { factors, rows: y.len(), parts }, vec![y.to_vec()], MAX_ORDER), None);
         let mut chosen = if best.rest > EXACT { best.or_with_knots() } else { best };
         if let Some(offset) = offset.filter(|_| chosen.rest > EXACT) {
             chosen = chosen.or_with_product(y, offset);
@@ -95,7 +95,7 @@ impl Chaos {
         }
         let mut left = product.left(basis.count_parts());
         left.resize(y.len(), 0.0);
-        let other = Self::chosen(Prior::new(basis, left, MAX_ORDER), Some(&product));
+        let other = Self::chosen(Prior::new(basis, vec![left], MAX_ORDER), Some(&product));
         if other.rest < CLEARLY_LESS * self.rest && other.variances.all.is_finite() { other } else { self }
     }
 
@@ -207,7 +207,7 @@ impl Chaos {
 
     /// Returns the outputs at these rows.
     pub fn fitted_outputs(&self) -> &[f64] {
-        &self.listed.prior.y[..self.listed.prior.rows]
+        &self.listed.prior.y()[..self.listed.prior.rows]
     }
 
     /// Returns the mean of what the terms leave of the rows that are fitted.
@@ -251,7 +251,7 @@ impl Held {
     fn new(listed: &Listed, product: Option<&Product>) -> Self {
         let parts = listed.prior.basis.count_parts();
         // The last one leaves out none.
-        let (mut all, mut rests) = fits(listed, parts + 1, product);
+        let (mut all, mut rests) = fits(listed, parts + 1, listed.prior.y(), product);
         let Fits { mut of_ways, left } = all.swap_remove(parts);
         let least = rests.iter().copied().fold(f64::INFINITY, f64::min);
         let (last, held) = (rests.len() - 1, best_way(&rests));
@@ -267,12 +267,12 @@ impl Held {
         Self { way, coefficients: of_ways.swap_remove(way).coefficients, of_parts, rest: rests[way] }
     }
 }
-/// Returns the fits without each of the first `parts` parts of the rows, of what a `product` fitted to the same rows
-/// leaves, and the mean square that each way leaves of the rows that are left out.
-pub(super) fn fits(listed: &Listed, parts: usize, product: Option<&Product>) -> (Vec<Fits>, Vec<f64>) {
+/// Returns the fits to `y` without each of the first `parts` parts of the rows, or to what a `product` fitted to the same
+/// rows leaves, and the mean square that each way leaves of the rows that are left out.
+pub(super) fn fits(listed: &Listed, parts: usize, y: &[f64], product: Option<&Product>) -> (Vec<Fits>, Vec<f64>) {
     let parts = (0..parts).into_par_iter().map(|part| {
         let left = product.map(|product| product.left(part));
-        listed.fits(part, left.as_ref().unwrap_or(&listed.prior.y))
+        listed.fits(part, left.as_deref().unwrap_or(y))
     });
     let all: Vec<Fits> = parts.collect();
     let rest = |way: usize| all.iter().map(|fits| fits.of_ways[way].square()).sum::<f64>() / listed.prior.rows as f64;

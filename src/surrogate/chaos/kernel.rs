@@ -36,7 +36,7 @@ pub struct Variances {
     pub noise: f64,
 }
 
-/// The derivatives of the logarithm of the likelihood.
+/// The derivatives of the negative logarithm of the likelihood.
 pub struct Derivatives {
     pub functions: Vec<Vec<f64>>,
     pub orders: Vec<f64>,
@@ -53,24 +53,55 @@ impl Kernel {
         all
     }
 
-    /// Computes the negative logarithm of the likelihood of `y`, and its derivatives; `None` if the covariance is
-    /// singular.
-    pub fn likelihood(&self, variances: &Variances, y: &[f64]) -> Option<(f64, Derivatives)> {
+    /// Computes the likelihood of independent `outputs`; `None` if the covariance is singular.
+    pub fn likelihood<'a>(
+        &self,
+        variances: &Variances,
+        outputs: impl Iterator<Item = &'a [f64]>,
+    ) -> Option<Likelihood> {
         let factor = Cholesky::new(self.covariance(variances))?;
-        let whitened = factor.forward(y);
-        let value = 0.5 * whitened.iter().map(|z| z * z).sum::<f64>() + factor.log_diagonal();
-        let weights = factor.backward(whitened);
+        let mut value = 0.0;
+        let weights = outputs.map(|y| {
+            let whitened = factor.forward(y);
+            value += 0.5 * whitened.iter().map(|z| z * z).sum::<f64>() + factor.log_diagonal();
+            factor.backward(whitened)
+        });
+        Some(Likelihood { weights: weights.collect(), value, factor })
+    }
+}
+
+/// The likelihood of outputs.
+pub struct Likelihood {
+    factor: Cholesky,
+    /// K^-1 y of each output.
+    weights: Vec<Vec<f64>>,
+    /// Its negative logarithm.
+    pub value: f64,
+}
+
+impl Likelihood {
+    /// Returns the mean square of the rows left out one by one.
+    pub fn left_one_out(&self) -> f64 {
+        let diagonal = self.factor.inverse_diagonal();
+        let left = self.weights.iter().flat_map(|of| of.iter().zip(&diagonal).map(|(a, v)| (a / v) * (a / v)));
+        left.sum::<f64>() / (diagonal.len() * self.weights.len()) as f64
+    }
+
+    /// Computes the derivatives of the negative logarithm.
+    pub fn derivatives(&self, kernel: &Kernel, variances: &Variances) -> Derivatives {
+        let Self { factor, weights, .. } = self;
         let inverse: Vec<Vec<Lane>> = (0..factor.panels()).into_par_iter().map(|p| factor.inverse_panel(p)).collect();
         let parts = (0..inverse.len()).into_par_iter();
         let parts: Vec<Sums> =
-            parts.map(|p| derivatives_of_panel(&self.functions, variances, &inverse, &weights, p)).collect();
+            parts.map(|p| derivatives_of_panel(&kernel.functions, variances, &inverse, weights, p)).collect();
         let mut sums = Sums::default();
         parts.into_iter().for_each(|part| sums.add(part));
-        let trace: f64 = inverse.iter().flat_map(|panel| sums_of_squares(panel)).take(self.rows).sum();
-        let noise = 0.5 * (trace - weights.iter().map(|a| a * a).sum::<f64>());
+        let trace: f64 = inverse.iter().flat_map(|panel| sums_of_squares(panel)).take(kernel.rows).sum();
+        let squares: f64 = weights.iter().flatten().map(|a| a * a).sum();
+        let noise = 0.5 * (weights.len() as f64 * trace - squares);
         let mut functions = sums.functions.iter().map(total);
         let functions = variances.functions.iter().map(|of| functions.by_ref().take(of.len()).collect()).collect();
-        Some((value, Derivatives { functions, orders: sums.orders.iter().map(total).collect(), noise }))
+        Derivatives { functions, orders: sums.orders.iter().map(total).collect(), noise }
     }
 }
 
@@ -157,7 +188,7 @@ fn derivatives_of_panel(
     functions: &[Panels],
     variances: &Variances,
     inverse: &[Vec<Lane>],
-    weights: &[f64],
+    weights: &[Vec<f64>],
     p: usize,
 ) -> Sums {
     let scaled = scaled(functions, variances, p);
@@ -178,16 +209,20 @@ fn derivatives_of_panel(
     sums
 }
 
-fn at_panel(weights: &[f64], p: usize) -> Lane {
-    std::array::from_fn(|l| weights.get(p * LANES + l).copied().unwrap_or(0.0))
+fn at_panel(weights: &[Vec<f64>], p: usize) -> Vec<Lane> {
+    let at = |of: &Vec<f64>| std::array::from_fn(|l| of.get(p * LANES + l).copied().unwrap_or(0.0));
+    weights.iter().map(at).collect()
 }
 
-/// Returns `side` (K^-1 - K^-1 y y' K^-1) in a tile.
+/// Returns `side` times the sum of K^-1 - K^-1 y y' K^-1 over the outputs, in a tile.
 #[inline(always)]
-fn departure<const FIRST: usize>(inverse: &Tile, rows: &Lane, lanes: &Lane, side: f64) -> Tile {
+fn departure<const FIRST: usize>(inverse: &Tile, rows: &[Lane], lanes: &[Lane], side: f64) -> Tile {
     let mut tile = *inverse;
     for r in 0..HEIGHT {
-        add(&mut tile[r], -rows[FIRST + r], lanes);
+        multiply(&mut tile[r], &[rows.len() as f64; LANES]);
+        for (rows, lanes) in rows.iter().zip(lanes) {
+            add(&mut tile[r], -rows[FIRST + r], lanes);
+        }
         multiply(&mut tile[r], &[side; LANES]);
     }
     tile

@@ -84,7 +84,7 @@ fn add_by_evidence(prior: &mut Prior, rows: usize) {
     let columns = Panels::from_columns(rows, values.iter().map(Vec::as_slice));
     while prior.knots.len() < MAX_KNOTS {
         let Some(factor) = Cholesky::new(prior.fitted_covariance(rows)) else { break };
-        let products = columns.weighted_sums(&factor.solve(&prior.y[..rows]));
+        let products = columns.weighted_sums(&factor.solve(&prior.y()[..rows]));
         let squares = factor.whitened_squares(&columns);
         let mut best = (1.0, 0);
         for (j, place) in places.iter().enumerate() {
@@ -166,7 +166,7 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
             let columns: Vec<Vec<f64>> = moving.iter().map(|term| prior.basis.values(term, 0..all)).collect();
             basis.truncate(panels);
             basis.extend(&Panels::from_columns(all, columns.iter().map(Vec::as_slice)));
-            let explained = basis.scores(&prior.y[..all])[panels * LANES..].iter().map(|s| s * s).sum::<f64>();
+            let explained = basis.scores(&prior.y()[..all])[panels * LANES..].iter().map(|s| s * s).sum::<f64>();
             if explained > best.0 {
                 best = (explained, at);
             }

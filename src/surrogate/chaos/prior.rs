@@ -4,8 +4,8 @@
 //! exp(-alpha_i (k - 1) + gamma_i [k even]) k^-beta and of sum 1. A step or a hinge has its own l.
 
 use super::basis::Basis;
-use super::kernel::{Kernel, Variances};
-use super::linear::{Cholesky, Symmetric};
+use super::kernel::{Kernel, Likelihood, Variances};
+use super::linear::Symmetric;
 use super::optimise::{Bounds, minimise};
 use crate::surrogate::Term;
 use crate::surrogate::stepped::Knot;
@@ -29,13 +29,13 @@ const MORE_ITERATIONS: usize = 12;
 /// Mean square of the rows left out one by one above which the optimum may be a wrong one.
 const POOR: f64 = 0.25;
 
-/// The prior of one output. The logarithms of the hyperparameters, and gamma itself, are in this order: w of each
+/// The prior of an output, or of several. The logarithms of the hyperparameters, and gamma itself, are in this order: w of each
 /// factor, alpha of each, beta, s of each order, noise, gamma of each factor, l of each knot.
 #[derive(Debug, Clone)]
 pub struct Prior {
     pub basis: Basis,
-    /// The output, of mean 0 and variance 1.
-    pub y: Vec<f64>,
+    /// The outputs, of mean 0 and variance 1.
+    pub outputs: Vec<Vec<f64>>,
     /// The first rows, to which coefficients are fitted.
     pub rows: usize,
     order: usize,
@@ -48,10 +48,11 @@ pub struct Prior {
 
 impl Prior {
     /// Fits the hyperparameters of terms of at most `order` factors.
-    pub fn new(basis: Basis, y: Vec<f64>, order: usize) -> Self {
+    pub fn new(basis: Basis, outputs: Vec<Vec<f64>>, order: usize) -> Self {
         let order = order.min(basis.factors.len());
         let rows = basis.rows.min(MAX_ROWS);
-        let mut prior = Self { basis, y, rows, order, degree: FITTED_DEGREE, theta: Vec::new(), knots: Vec::new() };
+        let mut prior =
+            Self { basis, outputs, rows, order, degree: FITTED_DEGREE, theta: Vec::new(), knots: Vec::new() };
         let fitted = prior.fitted_rows();
         let kernel = prior.basis.kernel(fitted, prior.degree);
         prior.theta = prior.descend(&kernel, prior.start(&kernel), ITERATIONS);
@@ -113,12 +114,14 @@ impl Prior {
         let n = kernel.rows as f64;
         // Effects of degree 1 to 3, less what noise would give.
         let effects = kernel.functions.iter().map(|functions| {
-            let weights = &self.y[..kernel.rows];
-            let sums = (0..functions.rows.min(3)).map(|k| {
-                let column = (0..functions.panels()).flat_map(|p| functions.panel(p)[k]);
-                column.zip(weights).map(|(f, y)| f * y).sum::<f64>() / n
+            let of_outputs = self.outputs.iter().map(|y| {
+                let sums = (0..functions.rows.min(3)).map(|k| {
+                    let column = (0..functions.panels()).flat_map(|p| functions.panel(p)[k]);
+                    column.zip(y).map(|(f, y)| f * y).sum::<f64>() / n
+                });
+                sums.map(|mean| mean * mean).sum::<f64>() - 3.0 / n
             });
-            (sums.map(|mean| mean * mean).sum::<f64>() - 3.0 / n).max(0.02)
+            (of_outputs.sum::<f64>() / self.outputs.len() as f64).max(0.02)
         });
         let orders = (0..self.order).map(|q| if q == 0 { 0.0 } else { -1.0 });
         self.assembled(effects.map(libm::log).collect(), 0.7, 1.5, orders.collect())
@@ -176,24 +179,25 @@ impl Prior {
         }
     }
 
+    fn likelihood(&self, kernel: &Kernel, theta: &[f64]) -> Option<Likelihood> {
+        let outputs = self.outputs.iter().map(|y| &y[..kernel.rows]);
+        kernel.likelihood(&self.variances(theta, self.degree), outputs)
+    }
+
     /// Returns the mean square of the rows left out one by one.
     fn left_one_out(&self, kernel: &Kernel, theta: &[f64]) -> f64 {
-        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, self.degree))) else {
-            return f64::INFINITY;
-        };
-        let weights = factor.solve(&self.y[..kernel.rows]);
-        let squares = weights.iter().zip(factor.inverse_diagonal()).map(|(a, v)| (a / v) * (a / v));
-        squares.sum::<f64>() / kernel.rows as f64
+        self.likelihood(kernel, theta).map_or(f64::INFINITY, |likelihood| likelihood.left_one_out())
+    }
+
+    /// Returns the only output, or the first.
+    pub fn y(&self) -> &[f64] {
+        &self.outputs[0]
     }
 
     /// Returns the negative logarithm of the posterior of the hyperparameters.
     fn value(&self, kernel: &Kernel, theta: &[f64]) -> f64 {
-        let Some(factor) = Cholesky::new(kernel.covariance(&self.variances(theta, self.degree))) else {
-            return f64::INFINITY;
-        };
-        let whitened = factor.forward(&self.y[..kernel.rows]);
-        let fit = 0.5 * whitened.iter().map(|z| z * z).sum::<f64>() + factor.log_diagonal();
-        fit + self.penalty(theta, &mut vec![0.0; theta.len()])
+        let penalty = self.penalty(theta, &mut vec![0.0; theta.len()]);
+        self.likelihood(kernel, theta).map_or(f64::INFINITY, |likelihood| likelihood.value + penalty)
     }
 
     /// Returns the same with its gradient.
@@ -201,9 +205,8 @@ impl Prior {
         let (factors, order) = (self.basis.factors.len(), self.order);
         let variances = self.variances(theta, self.degree);
         let mut gradient = vec![0.0; theta.len()];
-        let Some((value, derivatives)) = kernel.likelihood(&variances, &self.y[..kernel.rows]) else {
-            return (1e10, gradient);
-        };
+        let Some(likelihood) = self.likelihood(kernel, theta) else { return (1e10, gradient) };
+        let derivatives = likelihood.derivatives(kernel, &variances);
         let (beta, gamma) = (self.beta(), self.gamma());
         for i in 0..factors {
             // By the logarithm of each variance.
@@ -229,7 +232,7 @@ impl Prior {
         }
         gradient[self.noise()] = variances.noise * derivatives.noise;
         let penalty = self.penalty(theta, &mut gradient);
-        (value + penalty, gradient)
+        (likelihood.value + penalty, gradient)
     }
 
     /// Returns the negative logarithm of the priors of the hyperparameters, and adds its gradient: normal, of the w

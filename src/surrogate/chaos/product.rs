@@ -45,7 +45,7 @@ impl Product {
         let centred: Vec<f64> = logs.iter().map(|log| log - centre).collect();
         let sd = (product(&centred, &centred) / y.len() as f64).sqrt();
         let standard = centred.iter().map(|log| log / sd).collect();
-        let (logarithm, way) = chosen(Prior::new(basis.clone(), standard, 1));
+        let (logarithm, way) = chosen(Prior::new(basis.clone(), vec![standard], 1));
         let mut fitted = Self { logarithm, way, sd, y: y.to_vec(), offset, shift: 0.0, scale: 1.0 };
         let left = fitted.left(basis.count_parts());
         let shift = mean(&left);
@@ -69,7 +69,7 @@ impl Product {
 
     /// Returns the coefficients of the logarithm without one `part`, and its values at all rows.
     fn logs(&self, part: usize) -> (Vec<f64>, Vec<f64>) {
-        let mut fits = self.logarithm.fits(part, &self.logarithm.prior.y);
+        let mut fits = self.logarithm.fits(part, self.logarithm.prior.y());
         let coefficients: Vec<f64> =
             fits.of_ways.swap_remove(self.way).coefficients.iter().map(|c| c * self.sd).collect();
         let logs = self.logarithm.combined(&coefficients);

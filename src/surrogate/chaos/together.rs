@@ -40,14 +40,7 @@ struct Shared {
 pub(crate) fn expansions_together(factors: &[Factor], outputs: Vec<Vec<f64>>, parts: &[usize]) -> Vec<Vec<Expansion>> {
     let count = parts.iter().max().map_or(0, |last| last + 1);
     let directions = Directions::new(outputs.clone());
-    let of_directions: Vec<Vec<Expansion>> = directions
-        .values
-        .par_iter()
-        .map(|y| {
-            let fits = CrossFits::smooth(factors.to_vec(), y.clone(), parts.to_vec());
-            fits.expansions(&fits.families())
-        })
-        .collect();
+    let of_directions = CrossFits::smooth(factors.to_vec(), directions.values, parts.to_vec()).expansions();
     let (terms, variances) = leading_terms(&directions.outputs, &of_directions);
     let basis = Basis { factors: factors.to_vec(), rows: parts.len(), parts: parts.to_vec() };
     let shared = Shared::new(terms, &variances, &basis, count);

@@ -36,9 +36,11 @@ fn the_covariance_is_the_sum_over_all_terms() {
 
 #[test]
 fn derivatives_are_those_of_the_likelihood() {
-    let (kernel, y) = (kernel(), (0..11).map(|r| libm::cos(f64::from(r))).collect::<Vec<f64>>());
-    let value = |variances: &Variances| kernel.likelihood(variances, &y).unwrap().0;
-    let derivatives = kernel.likelihood(&variances(), &y).unwrap().1;
+    let kernel = kernel();
+    let outputs = [1.0, 2.5].map(|w| (0..11).map(|r| libm::cos(w * f64::from(r))).collect::<Vec<f64>>());
+    let likelihood = |variances: &Variances| kernel.likelihood(variances, outputs.iter().map(Vec::as_slice)).unwrap();
+    let value = |variances: &Variances| likelihood(variances).value;
+    let derivatives = likelihood(&variances()).derivatives(&kernel, &variances());
     let check = |change: &dyn Fn(&mut Variances, f64), exact: f64| {
         let [mut up, mut down] = [variances(), variances()];
         change(&mut up, 1e-6);
