@@ -12,7 +12,7 @@ use std::path::Path;
 
 use apportion::given::{Column, analyse, surrogate_indices};
 use apportion::model::{Batch, KnownAnswer, RunContext};
-use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
+use apportion::screening::{ScreeningDesign, ScreeningSettings};
 use apportion::{
     AnalysisOptions, Distribution, Estimate, Sampler, Space, Study, StudyBuilder, SurrogateChoice, function_model,
 };
@@ -209,11 +209,9 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let study = builder(name, seed, SurrogateChoice::Off).build().expect("a study");
             let trajectories = budget / (truth.len() as u64 + 1);
             let design = ScreeningDesign::Radial { sampler: Sampler::Sobol };
-            let model = study.model();
             let settings = ScreeningSettings { design, trajectories, seed };
-            let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
             errors.seeds += 1;
-            match screen(job, 1, &|_| (), &RunContext::default()) {
+            match study.runner().threads(1).screen(settings) {
                 Err(_) => errors.without += 1,
                 Ok(found) => {
                     let weights: Vec<f64> = found.outputs[0]

@@ -38,12 +38,12 @@ pub enum RunError {
         bytes: u64,
     },
     /// The run was interrupted.
-    #[error("interrupted after {done} of {total} runs")]
+    #[error("interrupted after {done}{} runs", total.map_or_else(String::new, |total| format!(" of {total}")))]
     Interrupted {
         /// Model runs finished.
         done: u64,
-        /// Model runs in total.
-        total: u64,
+        /// Model runs in total, if it is known.
+        total: Option<u64>,
     },
     /// A part of the run has no valid design.
     #[error("cannot make a design for a trial run or a cheaper model: {0}")]

@@ -46,7 +46,7 @@ pub(crate) use rows::{RowWorker, answered};
 pub(crate) use scratch::failed_rows;
 pub use shard::{Shard, ShardError};
 pub use store::{RowBlock, Store};
-pub use table::{EvaluationStopped, TableJournal, TableRun};
+pub use table::TableRun;
 pub(crate) use totals::SAMPLE;
 pub(crate) use totals::Totals;
 

@@ -2,67 +2,51 @@
 
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, OnceLock, PoisonError};
-
-use thiserror::Error;
 
 use super::executor::Executor;
 use super::journal::Journal;
 use super::rows::{RowRange, RowSource, RowValues, answered};
-use super::{Progress, RunError, Store, record};
-use crate::model::{Batch, GiveUp, Model, RunContext};
+use super::{Progress, RunError, Store, failed_rows, record};
+use crate::model::{Batch, Model, RunContext};
 use apportion_base::clock::Instant;
-
-/// Why rows were not all evaluated.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum EvaluationStopped {
-    /// The model cannot continue.
-    #[error("the model cannot continue: {0}")]
-    GaveUp(GiveUp),
-    /// The run was interrupted.
-    #[error("interrupted")]
-    Interrupted,
-    /// The journal could not be written, or the files of the model changed; the reason.
-    #[error("{0}")]
-    NotKept(String),
-}
 
 /// Minimum rows in a batch of a fast model: fewer are not worth a thread.
 const MIN_QUICK_ROWS: u64 = 1024;
 
-/// The journal of a [`TableRun`], opened by [`Runner::table_journal`](crate::Runner::table_journal): rows in it are not
-/// evaluated again. Its outputs are in memory.
-pub struct TableJournal {
-    pub(crate) store: Store,
-    pub(crate) open: OnceLock<Journal>,
-}
-
 /// The workers of a model for points in tables.
 pub struct TableRun<'a> {
     executor: Executor<'a>,
-    journal: Option<TableJournal>,
-    /// Rows that have their outputs.
-    done: AtomicU64,
+    /// Keeps outputs: rows that it already has are not evaluated. Rows are counted over all calls of [`run`](Self::run).
+    pub(crate) store: Option<&'a Store>,
+    /// Records every block of evaluated rows, once it is open.
+    pub(crate) journal: Option<&'a OnceLock<Journal>>,
+    pub(crate) on_progress: &'a (dyn Fn(Progress) + Sync),
+    /// Number of rows of all calls, if it is known.
+    pub(crate) total: Option<u64>,
+    /// After the previous call.
+    before: Mutex<Progress>,
+    start: Instant,
 }
 
 impl<'a> TableRun<'a> {
     /// Creates workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks
     /// for, or one per core).
     pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>, threads: usize) -> Self {
-        Self { executor: Executor::new(model, context, threads), journal: None, done: AtomicU64::new(0) }
+        Self {
+            executor: Executor::new(model, context, threads),
+            store: None,
+            journal: None,
+            on_progress: &|_| (),
+            total: None,
+            before: Mutex::default(),
+            start: Instant::now(),
+        }
     }
 
-    /// Keeps the outputs in `journal`, and evaluates only rows that are missing there. Rows are counted over all calls of
-    /// [`run`](Self::run).
-    #[must_use]
-    pub fn with_journal(self, journal: Option<TableJournal>) -> Self {
-        Self { journal, ..self }
-    }
-
-    /// Returns the number of rows that have their outputs.
-    pub fn rows_done(&self) -> u64 {
-        self.done.load(Relaxed)
+    /// Returns the model.
+    pub fn model(&self) -> &'a dyn Model {
+        self.executor.model
     }
 
     /// Returns the recommended number of rows per call.
@@ -74,26 +58,36 @@ impl<'a> TableRun<'a> {
     /// does not matter.
     ///
     /// # Errors
-    /// [`EvaluationStopped`] if the model gives up, the run is to stop, or the journal cannot be written; the batch is
-    /// then undefined.
-    pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), EvaluationStopped> {
-        let total = batch.rows() as u64;
-        if total == 0 {
+    /// [`RunError`] if the model gives up, the run is to stop, or the journal cannot be written; the batch is then
+    /// undefined.
+    pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), RunError> {
+        let rows = batch.rows() as u64;
+        if rows == 0 {
             return Ok(());
         }
-        let before = Progress { total, ..Progress::default() };
-        let first = self.rows_done();
-        let (new, journal) = (Store::new(self.executor.model), self.journal.as_ref());
-        let store = journal.map_or(&new, |journal| &journal.store);
-        let missing = store.missing(0, first..first + total);
-        self.done.fetch_add(store.count(0, first..first + total).0, Relaxed);
+        let mut before = self.before.lock().unwrap_or_else(PoisonError::into_inner);
+        let Progress { done: first, recalled, failed, .. } = *before;
+        let new = Store::new(self.executor.model);
+        let store = self.store.unwrap_or(&new);
+        let missing = store.missing(0, first..first + rows);
+        let (existing, failing) = store.count(0, first..first + rows);
         let table = Table { run: self, store, first, inputs, waiting: Mutex::new(missing.into()) };
-        self.executor.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
-            RunError::GaveUp(give_up) => EvaluationStopped::GaveUp(give_up),
-            RunError::Interrupted { .. } => EvaluationStopped::Interrupted,
-            error => EvaluationStopped::NotKept(error.to_string()),
+        let in_all = |now: Progress| Progress {
+            done: first + now.done,
+            recalled: recalled + now.recalled,
+            total: self.total.unwrap_or(0),
+            failed: failed + now.failed,
+            elapsed: self.start.elapsed(),
+        };
+        let of_call =
+            Progress { done: existing, recalled: existing, total: rows, failed: failing, ..Progress::default() };
+        let ended = self.executor.execute(&table, of_call, self.start, &|now| (self.on_progress)(in_all(now)));
+        ended.map_err(|error| match error {
+            RunError::Interrupted { done, .. } => RunError::Interrupted { done: first + done, total: self.total },
+            error => error,
         })?;
         store.recall(0, first, std::slice::from_mut(batch));
+        *before = in_all(Progress { done: rows, failed: failed_rows(batch), ..of_call });
         Ok(())
     }
 }
@@ -131,11 +125,10 @@ impl RowSource for Table<'_, '_> {
     fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError> {
         let mut rows = 0;
         for block in answered(range, batch) {
-            self.run.journal.as_ref().map_or(Ok(()), |journal| record(&journal.open, &block))?;
+            self.run.journal.map_or(Ok(()), |journal| record(journal, &block))?;
             rows += self.store.insert(block);
         }
-        self.run.done.fetch_add(rows, Relaxed);
-        Ok((rows, 0))
+        Ok((rows, failed_rows(batch)))
     }
 }
 

@@ -73,7 +73,7 @@ impl<'r> Tracker<'r> {
         let (done, total) = (self.done.into_inner(), self.before.total);
         match self.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
             None | Some(RunError::GaveUp(_)) if done < total && self.context.is_interrupted() => {
-                Err(RunError::Interrupted { done, total })
+                Err(RunError::Interrupted { done, total: Some(total) })
             }
             error => error.map_or(Ok(()), Err),
         }

@@ -13,14 +13,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 pub use worker::{Requests, WorkerStudy};
 
 use crate::model::RunContext;
 use crate::result::StudyResult;
-use crate::run::{Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, TableJournal};
+use crate::run::{Job, Progress, Remote, RemoteWorkers, RunError, Shard, Store, TableRun};
 use crate::study::Study;
-use journal::RunJournal;
 
 impl Study {
     /// Runs the study on all cores and estimates its indices.
@@ -114,7 +113,7 @@ impl Resume {
 #[must_use]
 #[derive(Clone)]
 pub struct Runner<'a> {
-    study: &'a Study,
+    pub(crate) study: &'a Study,
     threads: usize,
     remote: Option<&'a dyn RemoteWorkers>,
     on_progress: Arc<dyn Fn(Progress) + Send + Sync + 'a>,
@@ -219,17 +218,34 @@ impl<'a> Runner<'a> {
         Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
     }
 
-    /// Opens the journal for a [`TableRun`](crate::run::TableRun) of the study's model at other points than those of its
-    /// design, which `points` identifies; `None` for a fast model without a journal.
+    /// Evaluates, by `work`, `total` points that are not those of the study's design, and that `points` identifies in the
+    /// journal.
     ///
     /// # Errors
-    /// As for [`run`](Self::run), if there is no journal, or it cannot be used.
-    pub fn table_journal(self, points: Value) -> Result<Option<TableJournal>, RunError> {
-        let path = self.journal_for("a table of points")?.to_owned();
-        let runner = Self { points, only_if_long: true, ..self };
-        let journal = journal::open(&runner, &path, None, runner.context().messages())?;
-        let RunJournal { store, open, .. } = journal;
-        Ok(open.get().is_some().then_some(TableJournal { store, open }))
+    /// Those of `work`, and as for [`run`](Self::run) if the journal cannot be used or written.
+    pub fn run_table<T, E: From<RunError>>(
+        self,
+        points: Value,
+        total: Option<u64>,
+        work: impl FnOnce(&TableRun<'_>) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let (context, model) = (self.context(), self.study.model());
+        let nominal: Vec<f64> = self.study.space.factors().iter().map(|factor| factor.nominal).collect();
+        let runner = Self { points: json!({ "of": points, "nominal": nominal }), ..self };
+        let journal = runner.open(None, context.messages())?;
+        let on_progress = |progress: Progress| {
+            journal.watch(progress, model.outputs().len(), context.messages());
+            (runner.on_progress)(progress);
+        };
+        let mut run = TableRun::new(model.as_ref(), &context, runner.threads);
+        run.store = journal.open.get().map(|_| &journal.store);
+        run.journal = Some(&journal.open);
+        (run.on_progress, run.total) = (&on_progress, total);
+        let done = work(&run);
+        context.messages().finish();
+        let done = done?;
+        journal.finish()?;
+        Ok(done)
     }
 
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The

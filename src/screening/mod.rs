@@ -22,34 +22,23 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use std::sync::OnceLock;
-
 pub use measures::Reading;
 use points::{Move, Trajectories};
 use run::Outcome;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 pub use table::screen_table;
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, RunContext};
 use crate::result::FailureCount;
-use crate::run::{Progress, Store, TableJournal, TableRun};
+use crate::run::{Store, TableRun};
+use crate::runner::Runner;
 use crate::space::{Distribution, Factor, Space};
 use crate::uncertainty::{Estimate, Interval, RULE_OF_THREE};
 use apportion_base::quantity::Unlikely;
 use apportion_base::sum::mean;
-
-/// The work of a screening.
-#[derive(Clone, Copy)]
-pub struct ScreeningJob<'a> {
-    /// The factors.
-    pub space: &'a Space,
-    /// The model, over as many inputs as there are factors.
-    pub model: &'a dyn Model,
-    /// The settings.
-    pub settings: ScreeningSettings,
-}
 
 /// The results of a screening.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,53 +106,54 @@ pub struct ScreenedFactor {
     pub idle_steps: u64,
 }
 
-/// Screens the factors of `job` on `threads` threads (0: one per core). `on_progress` is called from time to time, from
-/// any thread. The result has the same bits on any number of threads.
-///
-/// ```
-/// use std::f64::consts::PI;
-///
-/// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
-/// use apportion::{Distribution, RunContext, Study, function_model};
-///
-/// // Ishigami's function.
-/// let y = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
-/// let angle = || Distribution::uniform(-PI, PI);
-/// let study = Study::builder("ishigami", function_model("y", y))
-///     .factor("x1", angle()?)
-///     .factor("x2", angle()?)
-///     .factor("x3", angle()?)
-///     .build()?;
-/// let model = study.model();
-/// let settings = ScreeningSettings::default();
-/// let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
-/// let screening = screen(job, 0, &|_| (), &RunContext::default())?;
-/// assert_eq!(screening.runs, 32 * 4);
-/// assert!(screening.outputs[0].factors.iter().all(|x| x.reading == Some(Reading::NonLinearOrInteracting)));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`ScreeningError`] if the settings are invalid, the threads cannot be started, the model gives up or the run of
-/// `context` is to stop. Failed runs are part of the result.
-pub fn screen(
-    job: ScreeningJob<'_>,
-    threads: usize,
-    on_progress: &(dyn Fn(Progress) + Sync),
-    context: &RunContext<'_>,
-) -> Result<Screening, ScreeningError> {
-    let screening = screen_by(&TableRun::new(job.model, context, threads), job, on_progress);
-    context.messages().finish();
-    screening
+impl Runner<'_> {
+    /// Screens the factors of the study. The result has the same bits on any number of threads.
+    ///
+    /// ```
+    /// use std::f64::consts::PI;
+    ///
+    /// use apportion::screening::{Reading, ScreeningSettings};
+    /// use apportion::{Distribution, Study, function_model};
+    ///
+    /// // Ishigami's function.
+    /// let y = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+    /// let angle = || Distribution::uniform(-PI, PI);
+    /// let study = Study::builder("ishigami", function_model("y", y))
+    ///     .factor("x1", angle()?)
+    ///     .factor("x2", angle()?)
+    ///     .factor("x3", angle()?)
+    ///     .build()?;
+    /// let screening = study.runner().screen(ScreeningSettings::default())?;
+    /// assert_eq!(screening.runs, 32 * 4);
+    /// assert!(screening.outputs[0].factors.iter().all(|x| x.reading == Some(Reading::NonLinearOrInteracting)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ScreeningError`] if the settings are invalid, the model gives up, the run is to stop, or the journal cannot be
+    /// used or written. Failed runs are part of the result.
+    pub fn screen(self, settings: ScreeningSettings) -> Result<Screening, ScreeningError> {
+        let space = self.study.space();
+        let (settings, _) = settings.in_force(space.factors().len())?;
+        let runs = settings.trajectories * (space.factors().len() as u64 + 1);
+        self.run_table(json!(settings), Some(runs), |run| screen_by(run, space, settings))
+    }
 }
 
-/// Returns the [`points`] of `job` as a screening with the outputs of `store`, which has all of their rows.
+/// Returns the [`points`] of `space` as a screening with the outputs of `store`, which has all of their rows.
 ///
 /// # Errors
 /// [`ScreeningError`] if the settings are invalid.
-pub fn screen_stored(job: ScreeningJob<'_>, store: Store) -> Result<Screening, ScreeningError> {
-    let (context, journal) = (RunContext::default(), TableJournal { store, open: OnceLock::new() });
-    screen_by(&TableRun::new(job.model, &context, 1).with_journal(Some(journal)), job, &|_| ())
+pub fn screen_stored(
+    space: &Space,
+    model: &dyn Model,
+    settings: ScreeningSettings,
+    store: &Store,
+) -> Result<Screening, ScreeningError> {
+    let context = RunContext::default();
+    let mut run = TableRun::new(model, &context, 1);
+    run.store = Some(store);
+    screen_by(&run, space, settings)
 }
 
 /// Returns the points of a screening, trajectory by trajectory: for each factor of `space` a column of SI values.
@@ -188,14 +178,10 @@ fn prepared(
     Ok((settings, parts, Trajectories::new(space, &settings, parts)?))
 }
 
-fn screen_by(
-    run: &TableRun<'_>,
-    job: ScreeningJob<'_>,
-    on_progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Screening, ScreeningError> {
-    let (settings, parts, points) = prepared(job.space, job.settings)?;
-    let outcome = run::run(job, &points, settings.trajectories, run, on_progress)?;
-    Ok(summary(job.space, job.model, (settings, parts), &outcome))
+fn screen_by(run: &TableRun<'_>, space: &Space, settings: ScreeningSettings) -> Result<Screening, ScreeningError> {
+    let (settings, parts, points) = prepared(space, settings)?;
+    let outcome = run::run(space, &points, settings.trajectories, run)?;
+    Ok(summary(space, run.model(), (settings, parts), &outcome))
 }
 
 /// Returns the measures of all outputs, from effects in this number of parts.

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::points::{Move, Trajectories};
-use super::{ScreeningError, ScreeningJob};
 use crate::model::{Batch, RowFailure};
-use crate::run::{EvaluationStopped, Progress, RunError, TableRun, failed_rows};
-use apportion_base::clock::Instant;
+use crate::run::{RunError, TableRun, failed_rows};
+use crate::space::Space;
 
 /// The results of some trajectories.
 #[derive(Debug, Default)]
@@ -27,24 +26,21 @@ pub(super) struct Outcome {
 
 /// Evaluates `trajectories` of them by `run`. The outcome has the same bits on any number of threads.
 pub(super) fn run(
-    job: ScreeningJob<'_>,
+    space: &Space,
     points: &Trajectories,
     trajectories: u64,
     run: &TableRun<'_>,
-    on_progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Outcome, ScreeningError> {
-    let rows = job.space.factors().len() + 1;
+) -> Result<Outcome, RunError> {
+    let (factors, model) = (space.factors(), run.model());
+    let rows = factors.len() + 1;
     // Whole trajectories, at least one.
     let block = (run.rows_at_once() / rows).max(1) as u64;
-    let start = Instant::now();
-    let total = trajectories * rows as u64;
-    let factors = job.space.factors();
-    let mut batch = Batch::new(job.model);
+    let mut batch = Batch::new(model);
     let mut outcome = Outcome {
-        effects: vec![Vec::new(); job.model.outputs().len()],
-        values: vec![Vec::new(); job.model.outputs().len()],
+        effects: vec![Vec::new(); model.outputs().len()],
+        values: vec![Vec::new(); model.outputs().len()],
         idle: vec![0; factors.len()],
-        flags: vec![0; job.model.flags().len()],
+        flags: vec![0; model.flags().len()],
         ..Outcome::default()
     };
     for first in (0..trajectories).step_by(block as usize) {
@@ -53,10 +49,7 @@ pub(super) fn run(
         let columns = points.columns(factors, &moves, &mut outcome.idle);
         batch.reset(rows * moves.len());
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        run.run(&inputs, &mut batch).map_err(|halt| match halt {
-            EvaluationStopped::GaveUp(give_up) => RunError::GaveUp(give_up),
-            _ => RunError::Interrupted { done: run.rows_done(), total },
-        })?;
+        run.run(&inputs, &mut batch)?;
         for (output, (effects, values)) in outcome.effects.iter_mut().zip(&mut outcome.values).enumerate() {
             for (moves, values) in moves.iter().zip(batch.column(output).chunks_exact(rows)) {
                 effects.extend(moves.iter().map(|a_move| effect(a_move, values)));
@@ -64,8 +57,6 @@ pub(super) fn run(
             values.extend(batch.column(output));
         }
         outcome.note(&batch, &inputs);
-        let (done, failed) = (last * rows as u64, outcome.failed);
-        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
     }
     Ok(outcome)
 }

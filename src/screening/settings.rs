@@ -148,6 +148,6 @@ pub enum ScreeningError {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// The run failed.
-    #[error(transparent)]
+    #[error("{0}")]
     Run(#[from] RunError),
 }

@@ -71,8 +71,7 @@ const WALK: ScreeningDesign = ScreeningDesign::Trajectory { levels: 4 };
 const DESIGNS: [ScreeningDesign; 4] = [SOBOL, RANDOM, LATIN, WALK];
 
 fn screened<F: Fn(&[f64]) -> Option<f64> + Send + Sync>(space: &Space, settings: ScreeningSettings, f: F) -> Screening {
-    let model = function(f);
-    screen(ScreeningJob { space, model: &model, settings }, 0, &|_| (), &RunContext::default()).unwrap()
+    screen_by(&TableRun::new(&function(f), &RunContext::default(), 0), space, settings).unwrap()
 }
 
 /// The measures of a factor that has them.
@@ -365,11 +364,11 @@ fn the_result_is_the_same_on_any_number_of_threads() {
     let model = function(|x| if x[0] > 0.9 { None } else { Some(morris_1991(x)) });
     let space = unit_cube(20);
     for design in DESIGNS {
-        let job = ScreeningJob { space: &space, model: &model, settings: settings(design, 256) };
-        let one = screen(job, 1, &|_| (), &RunContext::default()).unwrap();
-        for threads in [2, 5] {
-            assert_eq!(screen(job, threads, &|_| (), &RunContext::default()).unwrap(), one);
-        }
+        let [one, two, five] = [1, 2, 5].map(|threads| {
+            let context = RunContext::default();
+            screen_by(&TableRun::new(&model, &context, threads), &space, settings(design, 256)).unwrap()
+        });
+        assert!(one == two && one == five);
     }
 }
 
@@ -409,8 +408,8 @@ fn settings_are_checked_and_rounded() {
     }
     let model = function(|_| Some(0.0));
     let space = unit_cube(3000);
-    let job = ScreeningJob { space: &space, model: &model, settings: ScreeningSettings::default() };
-    let error = screen(job, 1, &|_| (), &RunContext::default()).unwrap_err();
+    let context = RunContext::default();
+    let error = screen_by(&TableRun::new(&model, &context, 1), &space, ScreeningSettings::default()).unwrap_err();
     assert!(matches!(error, ScreeningError::Design(DesignError::TooManyFactors { factors: 3000 })), "{error}");
 }
 

@@ -8,10 +8,12 @@ mod range;
 mod tests;
 use range::is_logarithmic;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use thiserror::Error;
 
-use crate::model::{Batch, Model, Output, RowFailure, RunContext};
-use crate::run::{EvaluationStopped, TableRun};
+use crate::model::{Batch, Output, RowFailure};
+use crate::run::{RunError, TableRun};
+use crate::runner::Runner;
 use crate::space::Space;
 use apportion_base::names::{did_you_mean, nearest};
 
@@ -96,11 +98,11 @@ pub struct Gap {
 }
 
 /// Why a sweep failed.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 pub enum SweepError {
-    /// The model gave up, or the sweep was stopped.
-    #[error(transparent)]
-    Halted(#[from] EvaluationStopped),
+    /// The run failed.
+    #[error("{0}")]
+    Run(#[from] RunError),
     /// The factor is unknown.
     #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), factors.join(", "))]
     UnknownFactor {
@@ -140,52 +142,46 @@ pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, Swee
     Ok(if names.is_empty() { (0..factors.len()).collect() } else { numbers })
 }
 
-/// Moves each of `factors`, by index, over its range at `points` points, every other factor at its nominal value.
-///
-/// # Errors
-/// [`SweepError`] for a number of points that is out of range; [`SweepError::Halted`] if the model gives up or is
-/// stopped.
-///
-/// # Example
-/// ```
-/// use apportion::model::RunContext;
-/// use apportion::space::{Factor, Space};
-/// use apportion::sweep::sweep;
-/// use apportion::{KnownAnswer, Unit};
-///
-/// let function = KnownAnswer::from_name("linear").ok_or("no such function")?.default_function();
-/// let factor = |input: &apportion::model::KnownInput| {
-///     Factor::new(input.name.as_str(), Unit::dimensionless(), input.distribution.clone())
-/// };
-/// let space = Space::new(function.inputs().iter().map(factor).collect::<Result<_, _>>()?);
-/// let count = function.inputs().len();
-/// let model = function.model(vec![0.0; count], (0..count).collect());
-/// let swept = sweep(&space, &model, &[0], 3, &RunContext::default())?;
-/// let y = &swept.sweeps[0].outputs[0];
-/// assert!(y.high.zip(y.low).is_some_and(|(high, low)| high > low));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn sweep(
-    space: &Space,
-    model: &dyn Model,
-    factors: &[usize],
-    points: usize,
-    context: &RunContext<'_>,
-) -> Result<Sweeps, SweepError> {
-    let mut evaluator = Evaluator {
-        space,
-        outputs: model.outputs(),
-        run: TableRun::new(model, context, 0),
-        batch: Batch::new(model),
-        flags: vec![0; model.flags().len()],
-    };
+impl Runner<'_> {
+    /// Moves each of `factors`, by index, over its range at `points` points, every other factor at its nominal value.
+    ///
+    /// # Errors
+    /// [`SweepError`] for a number of points that is out of range, if the model gives up, the run is to stop, or the
+    /// journal cannot be used or written.
+    ///
+    /// # Example
+    /// ```
+    /// use apportion::{Distribution, Study, function_model};
+    ///
+    /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
+    ///     .factor("a", Distribution::uniform(1.0, 2.0)?)
+    ///     .factor("b", Distribution::uniform(1.0, 5.0)?)
+    ///     .build()?;
+    /// let swept = study.runner().sweep(&[1], 3)?;
+    /// assert_eq!(swept.sweeps[0].outputs[0].values, [Some(1.5), Some(4.5), Some(7.5)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sweep(self, factors: &[usize], points: usize) -> Result<Sweeps, SweepError> {
+        let space = self.study.space();
+        let mut runs = 1;
+        for &number in factors {
+            runs += space.factors()[number].distribution().values_over_range(points)?.len() as u64;
+        }
+        let identity = json!({ "factors": factors, "points": points });
+        self.run_table(identity, Some(runs), |run| sweep(run, space, factors, points))
+    }
+}
+
+fn sweep(run: &TableRun<'_>, space: &Space, factors: &[usize], points: usize) -> Result<Sweeps, SweepError> {
+    let model = run.model();
+    let flags = vec![0; model.flags().len()];
+    let mut evaluator = Evaluator { space, outputs: model.outputs(), run, batch: Batch::new(model), flags };
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<NominalOutput> = evaluator.curve(0, &[first])?.into_iter().map(NominalOutput::new).collect();
     let mut sweeps = Vec::with_capacity(factors.len());
     for &number in factors {
         sweeps.push(evaluator.sweep(number, points, &nominal)?);
     }
-    context.messages().finish();
     let runs = 1 + sweeps.iter().map(|sweep| sweep.values.len() as u64).sum::<u64>();
     Ok(Sweeps { nominal, sweeps, runs, flags: evaluator.flags })
 }
@@ -208,16 +204,16 @@ impl SweptOutput {
 }
 
 /// A model with its factors at their nominal values.
-struct Evaluator<'a> {
+struct Evaluator<'a, 'r> {
     space: &'a Space,
     outputs: &'a [Output],
-    run: TableRun<'a>,
+    run: &'a TableRun<'r>,
     batch: Batch,
     /// For each validity flag, the number of runs so far that raised it.
     flags: Vec<u64>,
 }
 
-impl Evaluator<'_> {
+impl Evaluator<'_, '_> {
     /// Moves one factor, by index, over its range.
     fn sweep(&mut self, number: usize, points: usize, nominal: &[NominalOutput]) -> Result<Sweep, SweepError> {
         let factor = &self.space.factors()[number];
@@ -241,7 +237,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns every output for each of `values` of one factor, in its unit.
-    fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, EvaluationStopped> {
+    fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, RunError> {
         let factors = self.space.factors();
         let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();
         let max_rows = self.run.rows_at_once();

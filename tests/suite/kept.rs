@@ -112,6 +112,41 @@ fn an_evaluation_that_ended_early_is_resumed() {
 }
 
 #[test]
+fn a_screening_and_a_sweep_that_ended_early_are_resumed() {
+    const MODEL: &str = "import csv, os, sys\nfor row in csv.DictReader(sys.stdin):\n    number, a, b = row['id'], float(row['a']), \
+                         float(row['b'])\n    open('calls', 'a').write(f'{a}\\n')\n    again = len(open('calls').readlines()) == 40 and \
+                         not os.path.exists('go')\n    for _ in range(1 + again):\n        print(number, a * b + a, sep=',', flush=True)\n";
+    let mut messages = messages!();
+    for (command, more, rows) in [("screen", ["--trajectories", "32"], 96), ("sweep", ["--points", "40"], 81)] {
+        let folder = Folder::new();
+        folder.with("model.py", MODEL);
+        let program = "[command]\nprogram = [\"python3\", \"model.py\"]\nworkers = 1";
+        let study = folder.with("s.toml", SLOW.replace("command = [\"python3\", \"model.py\"]", program));
+        let [out, whole] = ["out", "whole"].map(|name| folder.path(name));
+        let call = |out: &Path, more: &[&str]| {
+            apportion(&[&[command, text(&study), "--out", text(out), "--charts", "none"], more].concat())
+        };
+        assert_eq!(call(&out, &[&more[..], &["--resume"]].concat()).status.code(), Some(2));
+        messages.ended(command, 1, &call(&out, &more));
+        let calls = || std::fs::read_to_string(folder.path("calls")).unwrap().lines().count();
+        let before = calls();
+        folder.with("go", "");
+        let resumed = call(&out, &[&more[..], &["--resume"]].concat());
+        assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
+        assert!(calls() < before + rows - 20, "{before} {}", calls());
+        assert_eq!(call(&whole, &more).status.code(), Some(0));
+        let table = |out: &Path| std::fs::read(out.join(format!("s-{command}.csv"))).unwrap();
+        assert_eq!(table(&out), table(&whole));
+        // Other points, another nominal value and another program are not mixed in.
+        let [points, nominal] = [[more[0], "8"], ["--set", "factor.b.nominal=0.5"]];
+        assert_eq!(call(&out, &[&points[..], &["--resume"]].concat()).status.code(), Some(2));
+        assert_eq!(call(&out, &[&more[..], &nominal, &["--resume"]].concat()).status.code(), Some(2));
+        folder.with("model.py", MODEL.replace("a * b", "a - b"));
+        assert_eq!(call(&out, &more).status.code(), Some(2));
+    }
+}
+
+#[test]
 fn factors_without_a_column_are_listed_with_their_values() {
     let folder = Folder::new();
     let (study, points, out) = (folder.with("s.toml", SUM), folder.with("p.csv", "b\n1\n"), folder.path("o.csv"));

@@ -6,12 +6,11 @@ use std::path::Path;
 
 use apportion::design::DesignError;
 use apportion::result::ReadError;
+use apportion::run::RunError;
 use apportion::run::journal::{JournalError, JournalProblem};
-use apportion::run::{EvaluationStopped, RunError};
 use apportion::screening::ScreeningError;
 use apportion::sweep::SweepError;
 use apportion_files::StudyError;
-use apportion_files::exchange::EvaluateError;
 use apportion_papers::scene::simulation::SceneError;
 use apportion_report::{ArtefactError, Refusal, WriteError};
 use thiserror::Error;
@@ -45,7 +44,7 @@ impl<T, E: Display> OfFile<T> for Result<T, E> {
 
 /// Returns the message of an error, with what to do about it in the words of the command line.
 pub fn message(error: &anyhow::Error) -> String {
-    let remedy = match error.downcast_ref::<RunError>() {
+    let remedy = match error.chain().find_map(|cause| cause.downcast_ref()) {
         Some(RunError::TooManyOutputs { .. }) => {
             ": use fewer base samples or outputs, intervals = \"batches\", or start again without saved outputs (--restart)"
         }
@@ -69,7 +68,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
 fn is_bad_input(error: &anyhow::Error) -> bool {
     if error.chain().any(|cause| cause.is::<Refusal>()) {
         true
-    } else if let Some(error) = error.downcast_ref::<RunError>() {
+    } else if let Some(error) = error.chain().find_map(|cause| cause.downcast_ref()) {
         match error {
             RunError::GaveUp(give_up) => give_up.is_bad_input,
             RunError::Journal(JournalError { problem, .. }) => problem.is_bad_input(),
@@ -77,12 +76,6 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
         }
     } else if let Some(ArtefactError::Write(error)) = error.downcast_ref() {
         is_bad_path(error)
-    } else if let Some(error) = error.downcast_ref::<SweepError>() {
-        if let SweepError::Halted(stopped) = error { is_bad_model(stopped) } else { true }
-    } else if let Some(EvaluateError::Halted { halt, .. }) = error.downcast_ref() {
-        is_bad_model(halt)
-    } else if let Some(error) = error.downcast_ref::<ScreeningError>() {
-        !matches!(error, ScreeningError::Run(_))
     } else if let Some(error) = error.downcast_ref::<WriteError>() {
         is_bad_path(error)
     } else if let Some(error) = error.downcast_ref::<SceneError>() {
@@ -91,6 +84,8 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
         error.is::<BadInput>()
             || error.is::<Silent>()
             || error.is::<StudyError>()
+            || error.is::<ScreeningError>()
+            || error.is::<SweepError>()
             || error.is::<ReadError>()
             || error.is::<DesignError>()
     }
@@ -99,8 +94,4 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
 /// Returns whether the path as given, not as resolved, is wrong.
 fn is_bad_path(error: &WriteError) -> bool {
     error.source.kind() == ErrorKind::NotADirectory
-}
-
-fn is_bad_model(stopped: &EvaluationStopped) -> bool {
-    matches!(stopped, EvaluationStopped::GaveUp(give_up) if give_up.is_bad_input)
 }

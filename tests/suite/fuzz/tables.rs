@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use apportion::given::{analyse, surrogate_indices};
-use apportion::model::RunContext;
 use apportion::study::Study;
 use apportion_files::exchange::{
     Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes,
 };
 use apportion_report::given::{GivenFacts, build_given, given_document};
+use serde_json::Value;
 
 /// A study with a factor of every kind.
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
@@ -52,9 +52,10 @@ pub fn run(bytes: &[u8]) {
     for names in [&given[..0], &given] {
         let Some(mut rows) = rows(csv, names) else { continue };
         let mut values = Vec::new();
-        let Ok(evaluated) = evaluate(&STUDY, rows.as_mut(), &mut values, false, None, &RunContext::default()) else {
-            continue;
-        };
+        let evaluated = STUDY
+            .runner()
+            .run_table(Value::Null, None, |run| evaluate(run, STUDY.space(), rows.as_mut(), &mut values, false));
+        let Ok(evaluated) = evaluated else { continue };
         // A header, and a line for each point.
         let lines = values.iter().filter(|byte| **byte == b'\n').count() as u64;
         assert_eq!(lines, evaluated.points + 1);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use apportion::Warning;
 use apportion::result::RunFacts;
-use apportion::screening::{ScreeningJob, ScreeningSettings, screen_stored};
+use apportion::screening::{ScreeningSettings, screen_stored};
 use apportion_base::files::read_text;
 use apportion_base::quantity::{Unit, Unlikely};
 use apportion_files::exchange::{Answers, AnswersRequest, Manifest, Missing, open_table, read_answers};
@@ -59,8 +59,7 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let artefacts = arguments.output.artefacts(study.name(), inputs).prepare(&format!("{}{ending}", study.name()))?;
     if let Some(settings) = screening {
         let model = study.model();
-        let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
-        let screening = screen_stored(job, store)?;
+        let screening = screen_stored(study.space(), model.as_ref(), settings, &store)?;
         let file = build_screening(&study, model.as_ref(), &screening, RunFacts::default());
         return output::deliver(&artefacts, &screening_document(&file));
     }

@@ -13,8 +13,8 @@ use apportion::study::{Study, Target};
 use apportion_files::ModelKind;
 use apportion_report::{grouped, significant, table, two_digits, with_unit};
 
+use super::journal::journal_path;
 use super::output::default_folder;
-use super::run::journal_path;
 use super::stop::on_signal;
 use super::{DesignChanges, StudyArguments, counted, print, say};
 

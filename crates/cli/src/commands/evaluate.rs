@@ -1,17 +1,17 @@
 //! `apportion evaluate`: the model at points of the user.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::model::RunContext;
 use apportion::space::Space;
 use apportion_base::digest::sha256_of_file;
 use apportion_files::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points, open_table};
 use apportion_report::format::count;
 use apportion_report::{prepare_outputs, significant, stream_atomically};
+use serde_json::Value;
 
-use super::run::Resumption;
-use super::stop::{Stoppable, on_signal};
+use super::journal::{JournalArguments, with_journal};
+use super::stop::Stoppable;
 use super::table::{TableArguments, say_of_table};
 use super::{StudyArguments, say};
 use crate::failure::OfFile;
@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
-    resumption: Resumption,
+    journal: JournalArguments,
     /// Overwrite an existing file
     #[arg(long)]
     force: bool,
@@ -47,47 +47,26 @@ pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
     let mut rows = open_table(&arguments.points, &options).in_file(&arguments.points)?;
     let inputs = [study.files(), vec![arguments.points.clone()]].concat();
     prepare_outputs(&inputs, std::slice::from_ref(&arguments.output), arguments.force)?;
-    let context = RunContext::new(Some(on_signal()), say);
-    let mut journal = None;
     // What comes from a pipe cannot be compared, and what goes into one is not there to be resumed.
     let is_kept = arguments.points.is_file() && (arguments.output.is_file() || !arguments.output.exists());
     let mut path = arguments.output.clone().into_os_string();
     path.push(".journal");
-    if is_kept && !arguments.resumption.no_journal {
-        let runner = study.runner().journal(&path).resume(arguments.resumption.resume()).on_message(say);
-        journal = runner.table_journal(sha256_of_file(&arguments.points)?.into())?;
-    }
-    let kept = match journal {
-        Some(_) => format!("\ncompleted runs are saved in {}: repeat the command to continue", path.to_string_lossy()),
-        None => String::new(),
-    };
+    let journal = (is_kept && !arguments.journal.no_journal).then_some(Path::new(&path));
+    let identity = if is_kept { sha256_of_file(&arguments.points)?.into() } else { Value::Null };
+    let runner = arguments.journal.keep(study.runner(), journal);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
         let out = &mut Stoppable::new(out);
-        let result = outcome.insert(evaluate_points(
-            &study,
-            rows.as_mut(),
-            out,
-            arguments.with_points,
-            journal.take(),
-            &context,
-        ));
+        let result = outcome.insert(runner.run_table(identity, None, |run| {
+            evaluate_points(run, study.space(), rows.as_mut(), out, arguments.with_points)
+        }));
         // After any error, an incomplete file must not replace the target.
         result.as_ref().map(drop).map_err(|_| std::io::Error::other("incomplete"))
     });
     match outcome {
         Some(Err(EvaluateError::Points(error))) => Err(error).in_file(&arguments.points),
-        Some(Err(error @ EvaluateError::Halted { .. })) => {
-            let message = match error {
-                EvaluateError::Halted { points: 0, .. } => {
-                    let _ = std::fs::remove_file(&path);
-                    error.to_string()
-                }
-                _ => format!("{error}{kept}"),
-            };
-            Err(anyhow::Error::from(error).context(message))
-        }
-        Some(Err(error)) => Err(anyhow!("{}: {error}", arguments.output.display())),
+        Some(Err(EvaluateError::Output(error))) => Err(anyhow!("{}: {error}", arguments.output.display())),
+        Some(Err(error)) => Err(with_journal(error, journal)),
         Some(Ok(evaluated)) => {
             written?;
             report(&evaluated, arguments, study.space());

@@ -6,8 +6,9 @@ use anyhow::anyhow;
 use apportion::run::RunError;
 use apportion_report::Artefacts;
 
+use super::journal::journal_path;
 use super::output::OutputArguments;
-use super::run::{deliver, journal_path};
+use super::run::deliver;
 use super::{DesignChanges, StudyArguments, Threads, counted, say};
 use crate::failure::bad_input;
 

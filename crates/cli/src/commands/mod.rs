@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod evaluate;
 mod given_data;
+mod journal;
 mod live;
 mod merge;
 mod models;

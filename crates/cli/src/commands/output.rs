@@ -7,6 +7,7 @@ use apportion_report::chart::{ChartWidth, PaperWidth};
 use apportion_report::document::Document;
 use apportion_report::{Artefacts, ChartFormat};
 
+use super::journal::JournalArguments;
 use super::stop::on_signal;
 use super::{counted, print, say};
 
@@ -46,9 +47,16 @@ impl OutputArguments {
     }
 
     /// The files of the document `NAME` + `ending` about `study`: they can be written, so that a run fails at its start
-    /// and not at its end.
-    pub fn prepared(&self, study: &Study, ending: &str) -> anyhow::Result<Artefacts> {
-        Ok(self.artefacts(study.name(), study.files()).prepare(&format!("{}{ending}", study.name()))?)
+    /// and not at its end. With `journal`, one of this name is among them.
+    pub fn prepared(
+        &self,
+        study: &Study,
+        ending: &str,
+        journal: Option<&JournalArguments>,
+    ) -> anyhow::Result<Artefacts> {
+        let name = format!("{}{ending}", study.name());
+        let journal = journal.and_then(|journal| journal.path(&self.folder(study.name()), &name, None));
+        Ok(Artefacts { journal, ..self.artefacts(study.name(), study.files()) }.prepare(&name)?)
     }
 }
 

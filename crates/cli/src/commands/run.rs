@@ -1,10 +1,9 @@
 //! `apportion run`: runs a study file and writes its results.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::anyhow;
-use apportion::Resume;
 use apportion::result::{OutputResult, StudyResult};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
@@ -12,11 +11,12 @@ use apportion_base::digest::sha256_of_file;
 use apportion_files::exchange::{Format, Points, write_rows};
 use apportion_report::{Artefacts, FileList, prepare_file, run_document, stream_atomically};
 
+use super::journal::{JournalArguments, with_journal};
 use super::output::{self, OutputArguments};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
-use super::{DesignChanges, StudyArguments, Threads, say, stop};
+use super::{DesignChanges, StudyArguments, Threads, say};
 use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
@@ -33,43 +33,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
     #[command(flatten)]
-    resumption: Resumption,
-    /// Always keep a journal (without this option: if the runs take longer than 10 s, or the model is a program)
-    #[arg(long, conflicts_with = "no_journal")]
-    journal: bool,
+    journal: JournalArguments,
     /// Evaluate one of N shards of the runs and write its own journal, for `apportion merge`
     #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
     shard: Option<Shard>,
-}
-
-/// What becomes of the journal.
-#[derive(clap::Args)]
-pub struct Resumption {
-    /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
-    /// of the same study is used if it exists)
-    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
-    resume: bool,
-    /// Evaluate the runs that failed again, and keep all others
-    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
-    retry_failed: bool,
-    /// Evaluate every run again; an existing journal is renamed
-    #[arg(long)]
-    restart: bool,
-    /// Neither use nor write a journal
-    #[arg(long)]
-    pub no_journal: bool,
-}
-
-impl Resumption {
-    /// What becomes of runs that are on record.
-    pub fn resume(&self) -> Resume {
-        match self {
-            Self { retry_failed: true, .. } => Resume::RetryFailed,
-            Self { resume: true, .. } => Resume::Require,
-            Self { restart: true, .. } => Resume::Restart,
-            _ => Resume::IfThere,
-        }
-    }
 }
 
 pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Result<()> {
@@ -78,7 +45,7 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
     }
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.output.folder(study.name());
-    let journal = (!arguments.resumption.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
+    let journal = arguments.journal.path(&folder, study.name(), arguments.shard);
     let artefacts = arguments.output.artefacts(study.name(), study.files());
     let artefacts = Artefacts { journal: journal.clone(), other: arguments.save_outputs.clone(), ..artefacts };
     let artefacts = artefacts.prepare(study.name())?;
@@ -108,23 +75,19 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
             runner.threads(threads).remote_workers(mpi_ranks)
         }
     };
-    // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
-    let stop = stop::on_signal();
-    let mut runner = runner.on_message(say).stop(stop).resume(arguments.resumption.resume());
-    if let Some(journal) = &journal {
-        runner = if arguments.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
-    }
+    // Only here, so that an earlier wait for input that never arrives can be interrupted at once.
+    let mut runner = arguments.journal.keep(runner, journal.as_deref());
     if let Some((_, _, store)) = &saved {
         runner = runner.store(store);
     }
     if let Some((shard, journal)) = arguments.shard.zip(journal.as_ref()) {
         let begun = Instant::now();
-        let rows = runner.run_shard(shard).map_err(|error| with_journal(&study, error, Some(journal)))?;
+        let rows = runner.run_shard(shard).map_err(|error| with_journal(error, Some(journal)))?;
         meter.finish(rows, begun.elapsed().as_secs_f64());
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
         return Ok(());
     }
-    let result = runner.run().map_err(|error| with_journal(&study, error, journal.as_deref()))?;
+    let result = runner.run().map_err(|error| with_journal(with_inputs(&study, error), journal.as_deref()))?;
     let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
     match &result.spending {
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
@@ -135,14 +98,6 @@ pub fn run(arguments: &Arguments, mpi_ranks: Option<&dyn Ranks>) -> anyhow::Resu
         FileList::open(&folder, study.name())?.add(saved.0, &sha256_of_file(saved.0)?)?;
     }
     deliver(&study, &artefacts, &result)
-}
-
-/// The journal of the study called `name`, or of one of its shards, in `folder`.
-pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf {
-    match shard {
-        None => folder.join(format!("{name}.journal")),
-        Some(shard) => folder.join(format!("{name}-shard-{}-of-{}.journal", shard.number(), shard.count())),
-    }
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
@@ -174,35 +129,6 @@ fn is_lost(study: &Study, output: &OutputResult) -> bool {
     let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
     let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
     output.indices.is_none() && output.runs_failed > 0 && too_many
-}
-
-/// Adds to an error how to continue the run.
-fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyhow::Error {
-    if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
-        return error.into();
-    }
-    let kept = match (&error, journal.filter(|journal| journal.exists())) {
-        (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if is_empty(study, journal) => {
-            String::new()
-        }
-        (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
-            // Rows that failed before the model gave up must be retried once the model is repaired.
-            let (option, again) = match error {
-                RunError::GaveUp(_) => ("--retry-failed", " and to evaluate the failed runs again"),
-                _ => ("--resume", ""),
-            };
-            let path = journal.display();
-            format!("\ncompleted runs are saved in {path}: repeat the command with {option} to continue{again}")
-        }
-        (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
-        _ => return with_inputs(study, error),
-    };
-    anyhow!("{error}{kept}")
-}
-
-/// Whether a journal has no runs of the study.
-fn is_empty(study: &Study, journal: &Path) -> bool {
-    study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0)
 }
 
 /// Adds the inputs of the failed row to an error.

@@ -3,16 +3,15 @@
 use std::time::Instant;
 
 use apportion::design::Sampler;
-use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
-use apportion::screening::{self, ScreeningDesign, ScreeningJob, ScreeningSettings};
+use apportion::screening::{ScreeningDesign, ScreeningSettings};
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
 
+use super::journal::{JournalArguments, with_journal};
 use super::output::{OutputArguments, deliver};
 use super::progress::Meter;
-use super::stop::on_signal;
 use super::{StudyArguments, Threads, say, whole_number};
 use crate::failure::bad_input;
 
@@ -36,6 +35,8 @@ pub struct Arguments {
     output: OutputArguments,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    journal: JournalArguments,
 }
 
 impl Arguments {
@@ -68,13 +69,14 @@ pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
         say(&format!("note: {requested} trajectories do not make equal parts for the intervals: {used} are used"));
     }
     let model = study.model();
-    let artefacts = arguments.output.prepared(&study, "-screen")?;
+    let artefacts = arguments.output.prepared(&study, "-screen", Some(&arguments.journal))?;
+    let journal = artefacts.journal.as_deref();
     let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
     let meter = Meter::new(study.name(), runs);
     let start = Instant::now();
-    let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
-    let context = RunContext::new(Some(on_signal()), say);
-    let screening = screening::screen(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
+    let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
+    let screening = arguments.journal.keep(runner, journal).screen(settings);
+    let screening = screening.map_err(|error| with_journal(error, journal))?;
     let threads = threads_in_force(arguments.threads.number());
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);

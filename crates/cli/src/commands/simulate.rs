@@ -32,7 +32,8 @@ fn parse_time(text: &str) -> Result<f64, String> {
 /// Simulates the scene with every factor at its nominal value.
 pub fn simulate(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
-    let artefacts = arguments.output.prepared(&study, if arguments.mode_diagram { "-modes" } else { "-scene" })?;
+    let artefacts =
+        arguments.output.prepared(&study, if arguments.mode_diagram { "-modes" } else { "-scene" }, None)?;
     let document = if arguments.mode_diagram {
         mode_document(&mode_diagram(&study)?, study.name(), study.title().unwrap_or(study.name()))
     } else {

@@ -1,13 +1,13 @@
 //! `apportion sweep`: one factor at a time around the nominal point.
 
-use apportion::model::RunContext;
 use apportion::sweep::Sweeps;
 use apportion::sweep::find;
 use apportion_report::sweep::{build_sweep, sweep_document};
 
+use super::journal::{JournalArguments, with_journal};
 use super::output::{OutputArguments, deliver};
-use super::stop::on_signal;
-use super::{StudyArguments, number_in, say};
+use super::progress::Meter;
+use super::{StudyArguments, number_in};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -21,14 +21,20 @@ pub struct Arguments {
     points: usize,
     #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    journal: JournalArguments,
 }
 
 pub fn sweep(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     let factors = find(study.space(), &arguments.factors)?;
     let model = study.model();
-    let artefacts = arguments.output.prepared(&study, "-sweep")?;
-    let context = RunContext::new(Some(on_signal()), say);
-    let sweeps = apportion::sweep::sweep(study.space(), model.as_ref(), &factors, arguments.points, &context)?;
+    let artefacts = arguments.output.prepared(&study, "-sweep", Some(&arguments.journal))?;
+    let journal = artefacts.journal.as_deref();
+    let meter = Meter::new(study.name(), 0);
+    let runner = study.runner().on_progress(|progress| meter.update(progress));
+    let sweeps = arguments.journal.keep(runner, journal).sweep(&factors, arguments.points);
+    let sweeps = sweeps.map_err(|error| with_journal(error, journal))?;
+    drop(meter);
     deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), sweeps)))
 }

@@ -59,7 +59,7 @@ pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
              which need independent factors: expected a study without [[dependence]]",
         ));
     }
-    let artefacts = arguments.output.prepared(&study, if arguments.extremes { "-extremes" } else { "-trade" })?;
+    let artefacts = arguments.output.prepared(&study, if arguments.extremes { "-extremes" } else { "-trade" }, None)?;
     if arguments.extremes {
         trade_extremes(&study, arguments, &artefacts)
     } else {

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use apportion::model::{Batch, Output, RowFailure, RunContext};
-use apportion::run::{EvaluationStopped, TableJournal, TableRun};
+use apportion::model::{Batch, Output, RowFailure};
+use apportion::run::{RunError, TableRun};
 use apportion::space::{Factor, Space};
-use apportion::study::Study;
 use apportion_base::names::{did_you_mean, nearest};
 use thiserror::Error;
 
@@ -23,14 +22,9 @@ pub enum EvaluateError {
     /// The outputs cannot be written.
     #[error("cannot write the outputs: {0}")]
     Output(#[from] std::io::Error),
-    /// The model gave up, the evaluation was stopped, or outputs could not be kept.
-    #[error("{halt}; {points} points had been evaluated")]
-    Halted {
-        /// Number of points evaluated before.
-        points: u64,
-        /// Why.
-        halt: EvaluationStopped,
-    },
+    /// The run failed.
+    #[error("{0}")]
+    Run(#[from] RunError),
 }
 
 /// The result of an evaluation.
@@ -48,32 +42,27 @@ pub struct Evaluated {
     pub unended: bool,
 }
 
-/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its
+/// Evaluates the model of `run` at the points of a table, whose columns are named after factors of `space`, and writes its
 /// outputs as CSV: a header of output names, one line per point, in the outputs' units. A failed output is an empty
 /// cell.
 ///
 /// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
 /// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
-/// The run of `context` may stop it; points in `journal` are not evaluated again. If `with_points`, the points are before their outputs in every line: a column for
-/// each factor, in its unit.
+/// If `with_points`, the points are before their outputs in every line: a column for each factor, in its unit.
 ///
 /// # Errors
 /// [`EvaluateError`] if the points are wrong, the outputs cannot be written, the model gives up, or the run is stopped.
 pub fn evaluate(
-    study: &Study,
+    run: &TableRun<'_>,
+    space: &Space,
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
     with_points: bool,
-    journal: Option<TableJournal>,
-    context: &RunContext<'_>,
 ) -> Result<Evaluated, EvaluateError> {
-    let mut reader = PointsReader::new(points, study.space())?;
-    let model = study.model();
-    let factors = study.space().factors();
-    let run = TableRun::new(model.as_ref(), context, 0).with_journal(journal);
-    let max_rows = run.rows_at_once();
-    let mut batch = Batch::new(model.as_ref());
+    let mut reader = PointsReader::new(points, space)?;
+    let (model, factors, max_rows) = (run.model(), space.factors(), run.rows_at_once());
+    let mut batch = Batch::new(model);
     let mut columns = vec![Vec::with_capacity(max_rows); factors.len()];
     let mut evaluated = Evaluated {
         skipped: reader.skipped.clone(),
@@ -95,8 +84,7 @@ pub fn evaluate(
         }
         batch.reset(rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let evaluation = run.run(&inputs, &mut batch);
-        evaluation.map_err(|halt| EvaluateError::Halted { points: run.rows_done(), halt })?;
+        run.run(&inputs, &mut batch)?;
         evaluated.count(model.outputs(), &batch);
         let answers: Vec<Vec<f64>> =
             model.outputs().iter().enumerate().map(|(k, output)| in_unit(output, batch.column(k))).collect();
@@ -104,7 +92,6 @@ pub fn evaluate(
         writer.write(&all)?;
     }
     writer.finish()?;
-    context.messages().finish();
     evaluated.unended = reader.rows.is_unended();
     Ok(evaluated)
 }
