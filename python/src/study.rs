@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use apportion::given::Column;
 use apportion::result::RunFacts;
 use apportion::run::{RowBlock, Store, threads_in_force};
-use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
-use apportion::sweep::{find, sweep};
+use apportion::screening::{ScreeningDesign, ScreeningError, ScreeningSettings};
+use apportion::sweep::{SweepError, find};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
 use apportion_report::screening::{build_screening, screening_document};
 use apportion_report::sweep::{build_sweep, sweep_document};
@@ -196,22 +196,9 @@ impl Study {
         progress: Option<Py<PyAny>>,
         message: Option<Py<PyAny>>,
     ) -> PyResult<Document> {
-        let resume = match resume {
-            "if-there" => Resume::IfThere,
-            "require" => Resume::Require,
-            "retry-failed" => Resume::RetryFailed,
-            "never" => Resume::Restart,
-            _ => return Err(input("resume: expected \"if-there\", \"require\", \"retry-failed\" or \"never\"")),
-        };
-        let listeners = Listeners { progress, message };
-        self.with_function(py, function, stop, &listeners, |study, told| {
-            let (progress, messages) = (Arc::clone(told), Arc::clone(told));
-            let mut runner: Runner<'_> = study.runner().threads(threads).resume(resume).stop(stop.flag());
-            runner = runner.on_progress(move |now| progress.progress(now));
-            runner = runner.on_message(move |line| messages.message(line));
-            if let Some(journal) = &journal {
-                runner = runner.journal(journal);
-            }
+        let keywords =
+            Keywords { threads, journal, resume: resumed(resume)?, listeners: Listeners { progress, message } };
+        self.with_function(py, function, stop, keywords, |_, runner| {
             let result = runner.run().map_err(|error| run_error(&error))?;
             Ok(result.into())
         })
@@ -259,7 +246,7 @@ impl Study {
     }
 
     /// Elementary effects; `levels` is `None` for the radial design.
-    #[pyo3(signature = (function, stop, *, trajectories, levels, seed, threads, progress))]
+    #[pyo3(signature = (function, stop, *, trajectories, levels, seed, threads, journal, resume, progress, message))]
     #[expect(clippy::too_many_arguments, reason = "by name")]
     fn screen(
         &self,
@@ -270,28 +257,34 @@ impl Study {
         levels: Option<u32>,
         seed: Option<u64>,
         threads: usize,
+        journal: Option<PathBuf>,
+        resume: &str,
         progress: Option<Py<PyAny>>,
+        message: Option<Py<PyAny>>,
     ) -> PyResult<Document> {
-        let listeners = Listeners { progress, message: None };
-        self.with_function(py, function, stop, &listeners, |study, told| {
+        let keywords =
+            Keywords { threads, journal, resume: resumed(resume)?, listeners: Listeners { progress, message } };
+        self.with_function(py, function, stop, keywords, |study, runner| {
             let in_study = study.design().settings();
             let design = match levels {
                 None => ScreeningDesign::Radial { sampler: in_study.sampler },
                 Some(levels) => ScreeningDesign::Trajectory { levels },
             };
             let settings = ScreeningSettings { design, trajectories, seed: seed.unwrap_or(in_study.seed) };
-            let model = study.model();
-            let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
-            let context = RunContext::new(Some(stop.flag()), |_| ());
             let begun = std::time::Instant::now();
-            let screening = screen(job, threads, &|now| told.progress(now), &context).map_err(failed)?;
+            let screening = runner.screen(settings).map_err(|error| match error {
+                ScreeningError::Run(error) => run_error(&error),
+                error => failed(error),
+            })?;
             let facts = RunFacts { threads: threads_in_force(threads), wall_seconds: begun.elapsed().as_secs_f64() };
-            let file = build_screening(study, model.as_ref(), &screening, facts);
+            let file = build_screening(study, study.model().as_ref(), &screening, facts);
             Ok(Document::new(screening_document(&file)))
         })
     }
 
     /// One factor at a time over its range; all factors if none is named.
+    #[pyo3(signature = (function, stop, factors, points, *, journal, resume, progress, message))]
+    #[expect(clippy::too_many_arguments, reason = "by name")]
     fn sweep(
         &self,
         py: Python<'_>,
@@ -299,14 +292,40 @@ impl Study {
         stop: &Stop,
         factors: Vec<String>,
         points: usize,
+        journal: Option<PathBuf>,
+        resume: &str,
+        progress: Option<Py<PyAny>>,
+        message: Option<Py<PyAny>>,
     ) -> PyResult<Document> {
         let factors = find(self.study.space(), &factors).map_err(input)?;
-        self.with_function(py, function, stop, &Listeners::default(), |study, _| {
-            let (model, context) = (study.model(), RunContext::new(Some(stop.flag()), |_| ()));
-            let sweeps = sweep(study.space(), model.as_ref(), &factors, points, &context).map_err(failed)?;
-            let file = build_sweep(study, model.as_ref(), sweeps);
-            Ok(Document::new(sweep_document(&file)))
+        let listeners = Listeners { progress, message };
+        let keywords = Keywords { threads: 0, journal, resume: resumed(resume)?, listeners };
+        self.with_function(py, function, stop, keywords, |study, runner| {
+            let sweeps = runner.sweep(&factors, points).map_err(|error| match error {
+                SweepError::Run(error) => run_error(&error),
+                error => failed(error),
+            })?;
+            Ok(Document::new(sweep_document(&build_sweep(study, study.model().as_ref(), sweeps))))
         })
+    }
+}
+
+/// The keywords of a run.
+struct Keywords {
+    threads: usize,
+    journal: Option<PathBuf>,
+    resume: Resume,
+    listeners: Listeners,
+}
+
+/// What becomes of runs in a journal.
+fn resumed(keyword: &str) -> PyResult<Resume> {
+    match keyword {
+        "if-there" => Ok(Resume::IfThere),
+        "require" => Ok(Resume::Require),
+        "retry-failed" => Ok(Resume::RetryFailed),
+        "never" => Ok(Resume::Restart),
+        _ => Err(input("resume: expected \"if-there\", \"require\", \"retry-failed\" or \"never\"")),
     }
 }
 
@@ -323,14 +342,14 @@ impl Study {
         all.collect()
     }
 
-    /// What `work` makes of the study with `function` as its model.
+    /// What `work` makes of the study with `function` as its model, and of a runner of it.
     fn with_function(
         &self,
         py: Python<'_>,
         function: Option<Function>,
         stop: &Stop,
-        listeners: &Listeners,
-        work: impl FnOnce(&apportion::Study, &Arc<ProgressState>) -> PyResult<Document> + Send,
+        keywords: Keywords,
+        work: impl FnOnce(&apportion::Study, Runner<'_>) -> PyResult<Document> + Send,
     ) -> PyResult<Document> {
         let (finished, events) = channel();
         let told = Arc::new(ProgressState::default());
@@ -355,7 +374,17 @@ impl Study {
         };
         let duty = Duty { events, finished, model, stop: stop.clone() };
         // An interruption is told before what came of it elsewhere.
-        let result = attend(py, duty, &told, listeners, || work(&study, &told))?;
+        let Keywords { threads, journal, resume, listeners } = keywords;
+        let result = attend(py, duty, &told, &listeners, || {
+            let (progress, messages) = (Arc::clone(&told), Arc::clone(&told));
+            let mut runner = study.runner().threads(threads).resume(resume).stop(stop.flag());
+            runner = runner.on_progress(move |now| progress.progress(now));
+            runner = runner.on_message(move |line| messages.message(line));
+            if let Some(journal) = journal {
+                runner = runner.journal(journal);
+            }
+            work(&study, runner)
+        })?;
         let first_error = first_error.lock().unwrap_or_else(PoisonError::into_inner).take();
         first_error.map_or(result, Err)
     }

@@ -82,9 +82,23 @@ class Study:
         levels: int | None,
         seed: int | None,
         threads: int,
+        journal: str | None,
+        resume: str,
         progress: Callable[[int, int, int, int], None] | None,
+        message: Callable[[str], None] | None,
     ) -> Document: ...
-    def sweep(self, function: dict[str, Any] | None, stop: Stop, factors: list[str], points: int) -> Document: ...
+    def sweep(
+        self,
+        function: dict[str, Any] | None,
+        stop: Stop,
+        factors: list[str],
+        points: int,
+        *,
+        journal: str | None,
+        resume: str,
+        progress: Callable[[int, int, int, int], None] | None,
+        message: Callable[[str], None] | None,
+    ) -> Document: ...
 
 def given_data(
     inputs: tuple[list[str], NDArray[np.float64]],

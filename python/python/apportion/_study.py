@@ -288,30 +288,48 @@ class Study:
         threads: int = 0,
         executor: Any = None,
         in_flight: int | None = None,
+        journal: str | os.PathLike[str] | None = None,
+        resume: Resume = "if-there",
         progress: bool | Callable[[int, int], None] | None = None,
     ) -> Document:
         """Elementary effects: screening of many factors, with a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid. `executor`, `in_flight` and `progress` are those of `run`."""
+        `levels` the trajectories of Morris (1991) on a grid. `executor`, `in_flight`, `journal`, `resume` and `progress` are those
+        of `run`."""
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
-        function = self._function(stop, executor, in_flight)
+        function = self._function(stop, executor, in_flight, journal is not None)
         # A trajectory at a time for each thread.
         threads = function["workers"] if function is not None and executor is not None else threads
+        path = None if journal is None else os.fspath(journal)
         with Progress(progress, self.name) as bar:
+            kept: dict[str, Any] = {"journal": path, "resume": resume, "progress": bar.callback, "message": say}
             document = self._study.screen(
-                function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=bar.callback
+                function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, **kept
             )
         return Document(document).warned()
 
-    def sweep(self, *factors: str, points: int = 101, executor: Any = None) -> Document:
-        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named. `executor`
-        is that of `run`."""
+    def sweep(
+        self,
+        *factors: str,
+        points: int = 101,
+        executor: Any = None,
+        journal: str | os.PathLike[str] | None = None,
+        resume: Resume = "if-there",
+        progress: bool | Callable[[int, int], None] | None = None,
+    ) -> Document:
+        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named. `executor`,
+        `journal`, `resume` and `progress` are those of `run`."""
         points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
-        return Document(self._study.sweep(self._function(stop, executor), stop, list(factors), points)).warned()
+        function = self._function(stop, executor, is_kept=journal is not None)
+        path = None if journal is None else os.fspath(journal)
+        with Progress(progress, self.name) as bar:
+            kept: dict[str, Any] = {"journal": path, "resume": resume, "progress": bar.callback, "message": say}
+            document = self._study.sweep(function, stop, list(factors), points, **kept)
+        return Document(document).warned()
 
     def _function(
         self, stop: _engine.Stop, executor: Any = None, in_flight: int | None = None, is_kept: bool = False
