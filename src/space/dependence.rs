@@ -3,7 +3,8 @@
 mod nataf;
 
 use nalgebra::DMatrix;
-use nataf::of_normal_scores;
+use nataf::{Standardised, of_normal_scores};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::copula::GaussianCopula;
@@ -170,8 +171,9 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         for &number in &numbers {
             refuse_uncorrelated(&factors[number])?;
         }
-        // Equal pairs in a row share an integral.
-        let mut last = None;
+        let laws: Vec<Standardised<'_>> =
+            numbers.par_iter().map(|number| Standardised::new(factors[*number].distribution())).collect();
+        let mut pairs = Vec::new();
         for (i, j) in (0..numbers.len()).flat_map(|i| (i + 1..numbers.len()).map(move |j| (i, j))) {
             let (a, b) = (numbers[i], numbers[j]);
             let [first, second] = [a, b].map(|number| &factors[number]);
@@ -179,10 +181,14 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
                 return refused(format!("the correlation of `{}` and `{}` is stated twice", first.name, second.name));
             }
             (stated[(a, b)], stated[(b, a)]) = (true, true);
-            let pair = (dependence.correlation[i][j], first.distribution(), second.distribution());
-            let shared = last.filter(|(last, _)| *last == pair).map(|(_, of_scores)| Ok(of_scores));
-            let of_scores = shared.unwrap_or_else(|| of_normal_scores(dependence.measure, pair.0, first, second))?;
-            last = Some((pair, of_scores));
+            pairs.push((i, j));
+        }
+        let of_scores = pairs.par_iter().map(|&(i, j)| {
+            let of_pair = [i, j].map(|place| &factors[numbers[place]]);
+            of_normal_scores(dependence.measure, dependence.correlation[i][j], of_pair, [&laws[i], &laws[j]])
+        });
+        for ((i, j), of_scores) in pairs.iter().zip(of_scores.collect::<Vec<_>>()) {
+            let (a, b, of_scores) = (numbers[*i], numbers[*j], of_scores?);
             (scores[(a, b)], scores[(b, a)]) = (of_scores, of_scores);
         }
     }

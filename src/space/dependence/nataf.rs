@@ -10,14 +10,14 @@ use crate::space::{Distribution, Factor};
 pub(super) fn of_normal_scores(
     measure: CorrelationMeasure,
     stated: f64,
-    a: &Factor,
-    b: &Factor,
+    [a, b]: [&Factor; 2],
+    [x, y]: [&Standardised<'_>; 2],
 ) -> Result<f64, DependenceError> {
     match measure {
         CorrelationMeasure::Normal => Ok(stated),
         CorrelationMeasure::Spearman => Ok(2.0 * libm::sin(PI / 6.0 * stated)),
         CorrelationMeasure::Kendall => Ok(libm::sin(PI / 2.0 * stated)),
-        CorrelationMeasure::Pearson => pearson(stated, a, b),
+        CorrelationMeasure::Pearson => pearson(stated, [a, b], [x, y]),
     }
 }
 
@@ -38,28 +38,25 @@ fn nodes(count: usize) -> Vec<(f64, f64)> {
     places.into_iter().zip(weights).map(|(place, weight)| (place, weight / sum)).collect()
 }
 
-fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> {
-    let [x, y] = [a, b].map(Factor::distribution);
-    if stated == 0.0 || matches!((x, y), (Distribution::Normal(_), Distribution::Normal(_))) {
+fn pearson(stated: f64, [a, b]: [&Factor; 2], [x, y]: [&Standardised<'_>; 2]) -> Result<f64, DependenceError> {
+    if stated == 0.0 || matches!((x.distribution, y.distribution), (Distribution::Normal(_), Distribution::Normal(_))) {
         return Ok(stated);
     }
-    let [x, y] = [x, y].map(|law| Standardised { distribution: law, mean: law.mean(), sd: law.sd() });
-    let line = nodes(LINE);
-    let [low, high] = [-1.0, 1.0].map(|sign| line.iter().map(|(z, w)| w * x.at(*z) * y.at(sign * z)).sum::<f64>());
+    // The nodes are symmetric.
+    let low = x.line.iter().zip(y.line.iter().rev()).map(|((w, x), (_, y))| w * x * y).sum::<f64>();
+    let high = x.line.iter().zip(&y.line).map(|((w, x), (_, y))| w * x * y).sum::<f64>();
     if !(low < stated && stated < high) {
         return refused(format!(
             "`{}` and `{}` cannot have a Pearson correlation of {stated}: their distributions allow {low:.4} to {high:.4}",
             a.name, b.name
         ));
     }
-    let plane = nodes(PLANE);
-    let of_x: Vec<f64> = plane.iter().map(|(z, _)| x.at(*z)).collect();
     // The correlation rises with r (Lancaster 1957): a secant that keeps its bracket, the end that stays twice counting half.
     let (mut left, mut right) = ((-1.0, low - stated), (1.0, high - stated));
     let mut last = 0.0;
     for _ in 0..60 {
         let r: f64 = (left.0 - left.1 * (right.0 - left.0) / (right.1 - left.1)).clamp(left.0, right.0);
-        let gap = correlation(r, &plane, &of_x, &y) - stated;
+        let gap = correlation(r, x, y) - stated;
         if gap.abs() < 1e-9 || right.0 - left.0 < 1e-9 {
             return Ok(r);
         }
@@ -76,25 +73,58 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
 }
 
 /// A distribution by normal scores, less its mean and over its standard deviation.
-struct Standardised<'a> {
+pub(super) struct Standardised<'a> {
     distribution: &'a Distribution,
     mean: f64,
     sd: f64,
+    /// Weights and values at the nodes of a line.
+    line: Vec<(f64, f64)>,
+    /// Coefficients of the Hermite polynomials of unit variance.
+    coefficients: [f64; TERMS],
+    /// Variance of the terms that are left out.
+    rest: f64,
 }
 
-impl Standardised<'_> {
+/// Hermite polynomials, from that of degree 0.
+const TERMS: usize = 40;
+
+/// Largest error of a correlation by Hermite polynomials.
+const MAX_ERROR: f64 = 1e-10;
+
+impl<'a> Standardised<'a> {
+    pub fn new(distribution: &'a Distribution) -> Self {
+        let (mean, sd) = (distribution.mean(), distribution.sd());
+        let mut law = Self { distribution, mean, sd, line: Vec::new(), coefficients: [0.0; TERMS], rest: 1.0 };
+        for (z, w) in nodes(LINE) {
+            let value = law.at(z);
+            law.line.push((w, value));
+            let (mut before, mut polynomial) = (0.0, 1.0);
+            for (degree, coefficient) in law.coefficients.iter_mut().enumerate() {
+                *coefficient += w * value * polynomial;
+                let next = (z * polynomial - (degree as f64).sqrt() * before) / ((degree + 1) as f64).sqrt();
+                (before, polynomial) = (polynomial, next);
+            }
+        }
+        law.rest -= law.coefficients.iter().map(|coefficient| coefficient * coefficient).sum::<f64>();
+        law
+    }
+
     fn at(&self, score: f64) -> f64 {
         (self.distribution.quantile(from_score(score)) - self.mean) / self.sd
     }
 }
 
-/// Returns the correlation of two standardised distributions whose scores have the correlation `r`; `of_x` is the first
-/// at the nodes of `plane`.
-fn correlation(r: f64, plane: &[(f64, f64)], of_x: &[f64], y: &Standardised<'_>) -> f64 {
-    let rest = (1.0 - r * r).sqrt();
+/// Returns the correlation of two standardised distributions whose scores have the correlation `r`: the sum of the products of
+/// their coefficients with the powers of r (Mehler 1866) if the terms that are left out are small, otherwise by quadrature.
+fn correlation(r: f64, x: &Standardised<'_>, y: &Standardised<'_>) -> f64 {
+    if r.abs().powi(TERMS as i32) * (x.rest.max(0.0) * y.rest.max(0.0)).sqrt() < MAX_ERROR {
+        let products = x.coefficients.iter().zip(&y.coefficients).rev();
+        return products.fold(0.0, |sum, (a, b)| sum * r + a * b);
+    }
+    let (plane, rest) = (nodes(PLANE), (1.0 - r * r).sqrt());
     let mut sum = 0.0;
-    for ((z, w), x) in plane.iter().zip(of_x) {
-        sum += w * x * plane.iter().map(|(v, w)| w * y.at(r * z + rest * v)).sum::<f64>();
+    for (z, w) in &plane {
+        sum += w * x.at(*z) * plane.iter().map(|(v, w)| w * y.at(r * z + rest * v)).sum::<f64>();
     }
     sum
 }
