@@ -28,6 +28,8 @@ import venv
 import zipfile
 from pathlib import Path
 
+from licences import licences
+
 ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
 TARGET_DIR = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
@@ -109,9 +111,11 @@ def program(target):
     built = TARGET_DIR / target / "dist" / name
     folder = f"apportion-{VERSION}-{target}"
     files = {name: built, "README.md": ROOT / "README.md", "CHANGELOG.md": ROOT / "CHANGELOG.md"}
-    files |= {f"licenses/{path.name}": path for path in sorted((ROOT / "python/licenses").iterdir())}
+    files |= {f"licenses/{path.name}": path for path in sorted((ROOT / "python/licenses").iterdir()) if path.is_symlink()}
     DIST.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
+        files["licenses/OTHERS.txt"] = Path(scratch) / "others"
+        files["licenses/OTHERS.txt"].write_text(licences("apportion-cli", target), encoding="utf-8")
         for shell in ("bash", "zsh", "fish", "powershell"):
             path = Path(scratch) / shell
             try:
@@ -150,6 +154,8 @@ def wheel(target):
     options = []
     if "linux" in target:
         options = ["--zig", "--compatibility", "manylinux2014" if target.endswith("gnu") else "musllinux_1_2"]
+    # Git ignores it.
+    (ROOT / "python/licenses/OTHERS.txt").write_text(licences("apportion-python", target), encoding="utf-8")
     run("maturin", "build", "--profile", "dist", "--locked", "--manifest-path", "python/Cargo.toml", "--out", DIST, "--target", target,
         *options, cwd=ROOT, env=builder(target))  # fmt: skip
 
@@ -177,6 +183,7 @@ def try_all(python):
 def try_program(path, scratch, _):
     shutil.unpack_archive(path, scratch)
     (folder,) = scratch.iterdir()
+    assert "Permission is hereby granted" in (folder / "licenses/OTHERS.txt").read_text(encoding="utf-8")
     binary = folder / ("apportion.exe" if WINDOWS else "apportion")
     needed = [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", binary.read_bytes())]
     if max(needed, default=0) > GLIBC:
@@ -209,6 +216,7 @@ def try_wheel(path, scratch, python):
     fresh = scratch / "fresh" / ("Scripts" if WINDOWS else "bin") / "python"
     run(fresh, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", path)
     run(fresh, "-c", TRIAL, cwd=scratch)
+    assert list(scratch.glob("fresh/**/apportion-*.dist-info/licenses/**/OTHERS.txt")), f"{path.name} has no licences of others"
 
 
 def sbom():

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles the engine to WebAssembly for the pages of `apportion live`: in gzip.
+# Compiles the engine to WebAssembly for the pages of `apportion live`: in gzip, with the licences of what is in it.
 #
 #     web/build.sh            writes assets/web/engine.wasm.gz (`just engine`)
 #     web/build.sh FOLDER     writes it to FOLDER instead
@@ -21,4 +21,5 @@ CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target was
 pack=(gzip -9nc)
 command -v zopfli >/dev/null && pack=(zopfli -c)
 "${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" >"$folder/engine.wasm.gz"
+{ cat LICENSE-MIT assets/joe-kuo/LICENSE-JOE-KUO; python3 .ci/licences.py apportion-web wasm32-unknown-unknown; } >"$folder/LICENCES.txt"
 echo "wrote $folder/engine.wasm.gz, $(wc -c <"$folder/engine.wasm.gz") bytes"

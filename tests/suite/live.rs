@@ -29,6 +29,9 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     let page = std::fs::read_to_string(page).unwrap();
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
     assert!(element(&page, "engine").len() > 500_000);
+    for part in ["Permission is hereby granted", "Stephen Joe", "nalgebra "] {
+        assert!(element(&page, "licences").contains(part), "{part}");
+    }
     let presets = presets(&page);
     assert_eq!(presets.len(), 4, "its own, and the papers' three: the soft cantilever is its own");
     let (title, own) = &presets[0];

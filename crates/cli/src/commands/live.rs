@@ -48,11 +48,14 @@ pub fn live(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The engine, compiled to WebAssembly by `web/build.sh`, in gzip; `None` where `build.rs` did not find it.
+/// The engine, compiled to WebAssembly by `web/build.sh`, in gzip, and the licences of what is in it; `None` where `build.rs` did not find it.
 #[cfg(page_engine)]
-const ENGINE: Option<&[u8]> = Some(include_bytes!("../../../../assets/web/engine.wasm.gz"));
+const ENGINE: Option<(&[u8], &str)> = Some((
+    include_bytes!("../../../../assets/web/engine.wasm.gz"),
+    include_str!("../../../../assets/web/LICENCES.txt"),
+));
 #[cfg(not(page_engine))]
-const ENGINE: Option<&[u8]> = None;
+const ENGINE: Option<(&[u8], &str)> = None;
 
 /// Whether this program can write live pages.
 pub const CAN_WRITE_PAGES: bool = ENGINE.is_some();
@@ -88,6 +91,8 @@ struct Page<'a> {
     beginning: &'static str,
     worker: &'static str,
     engine: String,
+    /// Without the end of the element.
+    licences: &'static str,
     version: &'static str,
 }
 
@@ -163,7 +168,7 @@ impl LiveStudy {
 
     /// Builds the page with the result of a first run.
     fn page(&self, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
-        let Some(engine) = ENGINE else {
+        let Some((engine, licences)) = ENGINE else {
             anyhow::bail!(
                 "live pages need assets/web/engine.wasm.gz, which `just engine` makes: build the program with it"
             );
@@ -196,6 +201,7 @@ impl LiveStudy {
             beginning: include_str!("../../templates/live/begin.js"),
             worker: include_str!("../../templates/live/worker.js"),
             engine: BASE64_STANDARD.encode(engine),
+            licences,
             version: env!("CARGO_PKG_VERSION"),
         };
         Ok(page.render()?)
