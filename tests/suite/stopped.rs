@@ -100,6 +100,24 @@ fn a_journal_or_result_is_a_file() {
     }
 }
 
+#[test]
+#[cfg(unix)]
+fn too_many_open_files_end_a_run_with_advice() {
+    let folder = Folder::new();
+    folder.with("in.txt", "{{a}} {{b}}");
+    let factors = "[factors.a]\nmin = 0\nmax = 1\n[factors.b]\nmin = 0\nmax = 1\n";
+    for (output, key) in [("outputs = [\"y\"]", ""), ("outputs.y = { regex = '[0-9]' }", "template = \"in.txt\"\n")] {
+        let command = "program = [\"sh\", \"-c\", \"sleep 1; echo 1\"]\nworkers = 100";
+        let study = format!("model = \"command\"\n{output}\n[command]\n{command}\n{key}{factors}");
+        let (study, out) = (folder.with("s.toml", study), folder.path("out"));
+        let line = format!("ulimit -n 40; exec \"$0\" run '{}' --out '{}'", text(&study), text(&out));
+        let program = assert_cmd::cargo::cargo_bin!("apportion");
+        let output = Command::new("sh").args(["-c", &line]).arg(program).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("ulimit -n 4096"), "{}", stderr(&output));
+    }
+}
+
 /// By default the system stops a program that writes beyond the limit without a message.
 #[test]
 fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {

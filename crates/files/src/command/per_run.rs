@@ -14,7 +14,7 @@ use apportion_base::text::seconds;
 
 use super::pick::{MAX_BYTES, STDOUT, Source, Texts};
 use super::process::listen;
-use super::program::{Running, ended_in_words};
+use super::program::{Running, ended_in_words, too_many_files};
 use super::protocol::{Column, columns, table};
 use super::template::InputTemplate;
 use super::{CommandModel, not_a_value};
@@ -79,7 +79,8 @@ impl<'a> PerRunWorker<'a> {
 
     fn unwritable(&self, error: &io::Error) -> RowFailure {
         let place = self.form.keep.clone().unwrap_or_else(std::env::temp_dir);
-        RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
+        let advice = too_many_files(error).map_or_else(String::new, |advice| format!("; {advice}"));
+        RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}{advice}", place.display()))
     }
 
     /// Creates a directory for a run; unless it is kept, it is removed with its contents when the second value is dropped.

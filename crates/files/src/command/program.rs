@@ -61,10 +61,17 @@ impl Program {
             _ if error.to_string().contains("format") => {
                 "begin it with a line such as #!/bin/sh, or name its interpreter first".to_owned()
             }
-            _ => "try it by hand, and with fewer `workers`".to_owned(),
+            _ => too_many_files(error).unwrap_or("try it by hand, and with fewer `workers`").to_owned(),
         };
         format!("cannot start the program `{name}`: {error}; {help}")
     }
+}
+
+/// Returns what to do, if the process has as many open files as it may have.
+pub(super) fn too_many_files(error: &io::Error) -> Option<&'static str> {
+    const EMFILE: i32 = 24;
+    let advice = "allow more open files (`ulimit -n 4096`), or use fewer `workers`: each keeps several open";
+    (cfg!(unix) && error.raw_os_error() == Some(EMFILE)).then_some(advice)
 }
 
 /// Returns the existing files among the program and its arguments, without the files that the program reads or imports.
