@@ -9,7 +9,6 @@ use apportion_files::exchange::{
     Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes,
 };
 use apportion_report::given::{GivenFacts, build_given, given_document};
-use serde_json::Value;
 
 /// A study with a factor of every kind.
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
@@ -54,7 +53,7 @@ pub fn run(bytes: &[u8]) {
         let mut values = Vec::new();
         let evaluated = STUDY
             .runner()
-            .run_table(Value::Null, None, |run| evaluate(run, STUDY.space(), rows.as_mut(), &mut values, false));
+            .run_table(Default::default(), None, |run| evaluate(run, STUDY.space(), rows.as_mut(), &mut values, false));
         let Ok(evaluated) = evaluated else { continue };
         // A header, and a line for each point.
         let lines = values.iter().filter(|byte| **byte == b'\n').count() as u64;
