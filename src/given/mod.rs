@@ -114,6 +114,18 @@ pub enum GivenError {
         /// The others, each in quotes.
         others: String,
     },
+    /// Quasi-random points of which two inputs together are not even.
+    #[error(
+        "the rows are quasi-random points in more dimensions than {rows} of them fill: `{}` and `{}` depend on each other, and \
+         first-order indices sum to more than 1, since inputs that do nothing seem to act. Draw the rows at random, or take \
+         far more of them", pair.0, pair.1
+    )]
+    UnevenPoints {
+        /// The two.
+        pair: (String, String),
+        /// Rows of the table.
+        rows: usize,
+    },
     /// Rows that repeat all inputs but one.
     #[error(
         "the {rows} rows have only {groups} different rows of all inputs but `{input}`. If it is a time or a place of a \
@@ -195,8 +207,8 @@ impl GivenIndices {
 ///
 /// # Errors
 /// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than 30 rows,
-/// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for
-/// ranks are analysed only by bins.
+/// or rows that are not independent because they belong to a design or repeat each other, or that are even points in far
+/// too many dimensions. Points that are too even for ranks are analysed only by bins.
 ///
 /// # Example
 /// ```
@@ -248,8 +260,14 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<Given
         PointSet::TooEven(_) => is_even(order, &varied, rows),
     });
     let is_even: Vec<bool> = is_even.collect();
-    let outputs =
-        outputs.iter().map(|output| outcome::of_output(output, inputs, (&orders, &is_even), rows_are, seed)).collect();
+    let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, (&orders, &is_even), rows_are, seed));
+    let outputs: Vec<OutputIndices> = outputs.collect();
+    let uneven = dependence.as_ref().and_then(|of| of.uneven.clone());
+    if let (PointSet::TooEven(_), Some(pair)) = (&points, uneven)
+        && outputs.iter().any(OutputIndices::sums_above_one)
+    {
+        return Err(GivenError::UnevenPoints { pair, rows });
+    }
     Ok(GivenIndices { rows, points, dependence, outputs, effective_rows })
 }
 

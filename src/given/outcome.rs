@@ -16,6 +16,13 @@ pub struct OutputIndices {
     pub indices: Result<Vec<InputIndices>, NoVariance>,
 }
 
+impl OutputIndices {
+    /// Returns whether the first-order indices sum to clearly more than those of independent inputs.
+    pub(super) fn sums_above_one(&self) -> bool {
+        self.indices.iter().flatten().map(|of| of.leading().estimate).sum::<f64>() > 1.05
+    }
+}
+
 /// The first-order index of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InputIndices {
