@@ -61,7 +61,7 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
     }
 }
 
-/// Adds to an error how to continue the run.
+/// Adds to an error how to continue the run; a journal without runs goes.
 pub fn with_journal(error: impl Into<anyhow::Error>, journal: Option<&Path>) -> anyhow::Error {
     let error = error.into();
     let (option, again) = match error.chain().find_map(|cause| cause.downcast_ref()) {
@@ -74,6 +74,7 @@ pub fn with_journal(error: impl Into<anyhow::Error>, journal: Option<&Path>) -> 
     let bytes = journal.and_then(|path| Some((path, std::fs::read(path).ok()?)));
     let hint = match bytes {
         Some((path, bytes)) if read_journal(path, &bytes).is_ok_and(|contents| contents.blocks.is_empty()) => {
+            let _ = std::fs::remove_file(path);
             String::new()
         }
         Some((path, _)) => {
