@@ -40,7 +40,7 @@ fn ishigami(name: &'static str, low: &str, cost: f64) -> Pair {
     Pair {
         name,
         study: format!("model = \"expression\"\n[outputs]\ny = \"{high}\"\n{factors}"),
-        low: format!("{{ name = \"low\", expression = {{ outputs = {{ y = \"{low}\" }} }} }}"),
+        low: format!("{{ name = \"low\", outputs = {{ y = \"{low}\" }} }}"),
         cost,
         first: vec![v1 / v, v2 / v, 0.0],
         total: vec![(v1 + v13) / v, v2 / v, v13 / v],
@@ -69,7 +69,7 @@ fn borehole() -> Pair {
     Pair {
         name: "borehole",
         study,
-        low: format!("{{ name = \"low\", model = \"expression\", expression = {{ outputs = {{ y = \"{low}\" }} }} }}"),
+        low: format!("{{ name = \"low\", model = \"expression\", outputs = {{ y = \"{low}\" }} }}"),
         cost: 0.01,
         first: indices.first_order.clone(),
         total: indices.total.clone(),
@@ -87,7 +87,7 @@ fn steps() -> Pair {
     Pair {
         name: "steps",
         study: format!("model = \"expression\"\n[outputs]\ny = \"{high}\"\n{factors}"),
-        low: format!("{{ name = \"low\", expression = {{ outputs = {{ y = \"{low}\" }} }} }}"),
+        low: format!("{{ name = \"low\", outputs = {{ y = \"{low}\" }} }}"),
         cost: 0.01,
         first: parts.iter().map(|v| v / variance).collect(),
         total: parts.iter().map(|v| v / (1.0 + v) * (variance + 1.0) / variance).collect(),

@@ -1,6 +1,6 @@
 //! What 50 to 500 runs of a model tell, by which method.
 //!
-//! `cargo bench --bench small_budgets` writes `docs/guide/small-budgets.md` from `small_budgets.md.in` (a minute or two); `-- 10` takes 10
+//! `cargo bench --bench small_budgets` writes `docs/guide/small-budgets.md` from `small_budgets.md.in` (more than an hour); `-- 10` takes 10
 //! seeds and writes nothing.
 //!
 //! Errors are the root mean square, over all factors and seeds, of estimate less exact index. Where a method gives no number (it
