@@ -385,6 +385,31 @@ def test_a_journal_resumes_an_interrupted_run(cube, tmp_path):
     assert dict(result.total) == dict(whole.total)
 
 
+@pytest.mark.parametrize("way", ["screen", "sweep"])
+def test_a_screening_and_a_sweep_that_were_interrupted_go_on(way, cube, tmp_path):
+    calls, journal = [], tmp_path / "f.journal"
+
+    def f(x):
+        calls.append(1)
+        if len(calls) == 50:
+            raise KeyboardInterrupt
+        return polynomial(*x)
+
+    def run():
+        study = ap.Study(f, cube, call="matrix", vectorised=False, version="1")
+        if way == "screen":
+            return study.screen(32, journal=journal).to_dict()["outputs"]
+        return study.sweep(points=41, journal=journal).to_dict()["sweeps"]
+
+    with pytest.raises(KeyboardInterrupt):
+        run()
+    again = len(calls)
+    resumed = run()
+    assert len(calls) - again < (32 * 4 if way == "screen" else 41 * 3)
+    journal.unlink()
+    assert run() == resumed
+
+
 def test_an_edited_function_does_not_use_the_runs_of_another(cube, tmp_path):
     journal = tmp_path / "f.journal"
     options = {"base_samples": 64, "vectorised": False, "journal": journal}
