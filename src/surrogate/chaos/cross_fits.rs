@@ -66,11 +66,11 @@ impl CrossFits {
     pub fn expansions(&self) -> Vec<Vec<Expansion>> {
         let families = self.families();
         let outputs = self.of_outputs.par_iter().zip(&self.listed.prior.outputs);
-        let of_output = |(fit, y): (&CrossFit, &Vec<f64>)| {
+        let of_outputs = outputs.map(|(fit, y)| {
             let parts = fit.coefficients.par_iter().enumerate();
             parts.map(|(part, coefficients)| fit.expansion(&self.listed, y, part, coefficients, &families)).collect()
-        };
-        outputs.map(of_output).collect()
+        });
+        of_outputs.collect()
     }
 }
 

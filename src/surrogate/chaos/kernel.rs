@@ -210,8 +210,8 @@ fn derivatives_of_panel(
 }
 
 fn at_panel(weights: &[Vec<f64>], p: usize) -> Vec<Lane> {
-    let at = |of: &Vec<f64>| std::array::from_fn(|l| of.get(p * LANES + l).copied().unwrap_or(0.0));
-    weights.iter().map(at).collect()
+    let lanes = weights.iter().map(|of| std::array::from_fn(|l| of.get(p * LANES + l).copied().unwrap_or(0.0)));
+    lanes.collect()
 }
 
 /// Returns `side` times the sum of K^-1 - K^-1 y y' K^-1 over the outputs, in a tile.
