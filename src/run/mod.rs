@@ -8,7 +8,6 @@
 //! machine or a file, are not evaluated again; missing ones are evaluated in batches of any size. The totals are then
 //! folded from the store, to the same bits.
 
-mod each;
 mod error;
 mod executor;
 mod failures;
@@ -30,7 +29,6 @@ mod tracker;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-pub use each::run_each;
 pub use error::RunError;
 pub use failures::RowPosition;
 pub(crate) use failures::Tally;

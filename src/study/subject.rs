@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use crate::model::{FunctionModel, Model, Output, OutputSeries, RepeatedModel};
-use crate::space::{Factor, Space};
+use crate::space::Space;
 
 /// A model with its choices made, ready to be run on the factors of any space.
 pub trait Subject: fmt::Debug + Send + Sync + Any {
@@ -32,11 +32,6 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
     /// name is all there is.
     fn meaning(&self, _input: &str) -> Option<String> {
         None
-    }
-
-    /// Returns inputs that are not factors of `space`, but whose extremes are worth examining.
-    fn further_inputs(&self, _space: &Space) -> Vec<Factor> {
-        Vec::new()
     }
 
     /// Returns files of the user other than the study on which the outputs depend, if the study names them.

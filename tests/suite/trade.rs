@@ -1,6 +1,6 @@
 //! `apportion trade`: comparison of settings.
 
-use apportion_cli::trade::settings::{Comparison, Measured};
+use apportion_cli::trade::{Comparison, Measured};
 
 use crate::common::{Folder, all_files, study_path, succeed, text};
 use crate::messages::messages;
@@ -83,7 +83,7 @@ fn the_rungs_of_a_ladder_are_compared_with_the_finest() {
 fn options_that_contradict_each_other_are_refused() {
     let study = study_path("ishigami");
     let mut messages = messages!();
-    for more in [&["--quick", "--seconds", "3"][..], &["--seconds", "0"], &["--extremes", "--quick"]] {
+    for more in [&["--quick", "--seconds", "3"][..], &["--seconds", "0"]] {
         messages.refused(&[&["trade", text(&study)], more].concat());
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use apportion::model::Model;
-use apportion::space::{Distribution, Factor, Space};
+use apportion::space::Space;
 use apportion::study::{LowFidelity, Rung, Subject};
 use serde_json::{Value, json};
 
@@ -149,17 +149,5 @@ impl Subject for AfmSubject {
 
     fn meaning(&self, input: &str) -> Option<String> {
         Parameter::from_name(input).map(|parameter| parameter.description.to_owned())
-    }
-
-    /// Adds velocity and adhesion, which may be zero.
-    fn further_inputs(&self, space: &Space) -> Vec<Factor> {
-        let further = ["velocity", "adhesion"].into_iter().filter(|name| !is_factor(space, name));
-        let constants = further.filter_map(|name| {
-            let parameter = Parameter::from_name(name)?;
-            let unit = edge_unit(parameter);
-            let value = Distribution::constant(unit.from_si((parameter.get)(&self.scene))).ok()?;
-            Factor::new(name, unit, value).ok()
-        });
-        constants.collect()
     }
 }

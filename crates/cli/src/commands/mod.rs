@@ -66,7 +66,7 @@ enum Command {
     Screen(screen::Arguments),
     /// Vary one factor at a time around the nominal point: curves, ranges and slopes of every output
     Sweep(sweep::Arguments),
-    /// Accuracy against time: the cheapest settings for each accuracy; or the behaviour of a study at its extremes
+    /// Accuracy against time: the cheapest settings for each accuracy
     Trade(trade::Arguments),
     /// Write the points of a study to a file, for an external model
     Sample(sample::Arguments),

@@ -5,7 +5,7 @@ use apportion::model::expression::Step;
 use astro_float_num::RoundingMode::ToEven;
 use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 
-use super::{Reference, Unchecked};
+use super::judge::{Reference, Unchecked};
 
 /// Precision in bits; large compared with the 53 bits of doubles, so that cancellation of all 53 is harmless.
 const BITS: usize = 320;
@@ -68,7 +68,7 @@ fn rounding(formula: &Expression, x: &[f64]) -> f64 {
 }
 
 /// Returns a formula at `x`, and how much rounding may move it in doubles.
-pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Unchecked> {
+pub fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Unchecked> {
     let unreached = "the formula has a function (erf, gamma, a huge angle or power) that is not computed in 320 bits";
     let value = precise(formula, x).ok_or_else(|| Unchecked::NotAvailable(unreached.to_owned()))?;
     if value.is_nan() {

@@ -1,107 +1,44 @@
-//! The behaviour of a study's model at the extremes of its inputs: a map of where its numbers are right, where they are
-//! flagged, where they are missing, and where they are silently wrong, see [`Outcome`].
+//! The judgement of the numbers of a model at the extremes of its inputs, by a second calculation.
 
-mod afm_second;
-mod document;
-mod map;
-mod points;
-mod precise;
-
-use apportion::model::Counter;
 use std::any::Any;
 use std::cmp::Reverse;
-use std::sync::atomic::AtomicBool;
 
-use afm_second::AfmSecond;
-use apportion::model::{Batch, GiveUp, Model, RowFailure, RunContext, Worker};
-use apportion::run::{Progress, RunError, run_each};
-use apportion::space::Space;
-use apportion::study::{Study, Subject};
+use apportion::Distribution;
+use apportion::Study;
+use apportion::model::{Batch, Counter, Model, RowFailure, RunContext, Worker};
+use apportion::space::{Factor, Space};
+use apportion::study::Subject;
 use apportion_afm::{AfmSubject, Parameter};
+use apportion_base::quantity::Unit;
 use apportion_files::ExpressionSubject;
-pub use document::{ExtremesFile, extremes_document};
-use map::Reasons;
-pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
-use points::{grids, points};
-use precise::reference;
 use serde_json::{Map, Value};
 
-/// A search for the extremes of a study.
-#[derive(Clone, Copy)]
-pub struct ExtremesJob<'a> {
-    /// The study.
-    pub study: &'a Study,
-    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
-    /// included, even if there are more.
-    pub points: u64,
-    /// Seed of the random points.
-    pub seed: u64,
-    /// Threads; 0 for one per core. The result is bitwise the same for any number.
-    pub threads: usize,
-    /// Stops the search soon after it is set.
-    pub stop: Option<&'a AtomicBool>,
-    /// Receives messages of programs.
-    pub on_message: fn(&str),
-    /// Receives the number of completed points.
-    pub on_progress: &'a (dyn Fn(Progress) + Sync),
-}
+use super::afm_second::AfmSecond;
+use super::map::{Extremes, Kind, Outcome, Reason, Reasons, Tally};
+use super::points::points;
+use super::precise::reference;
 
-impl<'a> ExtremesJob<'a> {
-    /// Uses points for some seconds, fewer for a program, one thread per core, and no messages.
-    pub fn new(study: &'a Study) -> Self {
-        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
-        let seed = study.design().settings().seed;
-        Self { study, points, seed, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
-    }
-}
-
-/// Computes the map of the extremes of a study.
-///
-/// ```
-/// use std::path::Path;
-/// use apportion::Study;
-/// use apportion_cli::trade::extremes::{ExtremesJob, extremes};
-///
-/// let text = "model = \"expression\"\noutputs.y = \"sqrt(a)\"\n[factors]\na = { min = 1, max = 2 }\n";
-/// let study = apportion_files::parse_study(text, Path::new("root.toml"), &[])?;
-/// let map = extremes(&ExtremesJob::new(&study))?;
-/// assert!(map.counts.right > 0);
-/// assert_eq!(map.counts.wrong, 0);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`RunError`] if threads cannot start, the model gives up or the search is stopped. Failed rows are in the map.
-pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
-    let study = job.study;
-    let context = RunContext::new(job.stop, job.on_message);
+/// The map of the extremes of a study at about `count` points, random ones by `seed`; or why the model gave up. All
+/// steps of every factor past its bounds are included, even if there are more.
+pub fn extremes(study: &Study, count: u64, seed: u64) -> Result<Extremes, String> {
+    let context = RunContext::new(None, |_| ());
     let factors = study.space().factors().iter().cloned();
-    let space = Space::new(factors.chain(study.subject().further_inputs(study.space())).collect());
+    let space = Space::new(factors.chain(further_inputs(study)).collect());
     let model = study.subject().model(&space);
     let second = second_calculation(&**study.subject(), &space);
-    let points = points(&space, job.points, job.seed);
-    let findings = run_each(
-        model.as_ref(),
-        job.threads,
-        &context,
-        points.len() as u64,
-        |worker, number| evaluate(model.as_ref(), worker, &points[number as usize].x, &second),
-        job.on_progress,
-    )?;
+    let mut worker = model.worker(&context);
     let mut map = Extremes {
         second_calculation: second.as_ref().ok().map(|second| second.name.clone()),
-        unchecked: second.err().map(str::to_owned),
-        points: points.len() as u64,
         counts: Tally::default(),
         kinds: Kind::ALL.map(|kind| (kind, Tally::default())).to_vec(),
-        grids: grids(&space),
         reasons: Vec::new(),
     };
     let mut reasons = Reasons::new();
-    for (point, findings) in points.iter().zip(findings) {
+    for point in points(&space, count, seed) {
         let inputs = space.factors().iter().zip(&point.x);
         let inputs: Map<String, Value> =
             inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect();
+        let findings = evaluate(model.as_ref(), &mut *worker, &point.x, &second)?;
         for (output, finding) in model.outputs().iter().zip(findings) {
             let reference = finding.reference.filter(|value| value.is_finite());
             let [value, reference] = [finding.value, reference].map(|value| Some(output.unit.from_si(value?)));
@@ -116,12 +53,26 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
                 value,
                 reference,
             };
-            map.add(point.cell, reason, &mut reasons);
+            map.add(reason, &mut reasons);
         }
     }
     map.reasons = reasons.into_values().collect();
     map.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
     Ok(map)
+}
+
+/// Velocity and adhesion of the nanoparticle, which may be zero, where they are not factors.
+fn further_inputs(study: &Study) -> Vec<Factor> {
+    let subject: &dyn Any = &**study.subject();
+    let Some(afm) = subject.downcast_ref::<AfmSubject>() else { return Vec::new() };
+    let is_factor = |name: &str| study.space().factors().iter().any(|factor| factor.name == name);
+    let further = [("velocity", "nm/s"), ("adhesion", "mJ/m^2")].into_iter().filter(|(name, _)| !is_factor(name));
+    let constants = further.map(|(name, unit)| {
+        let (parameter, unit) = (Parameter::from_name(name).unwrap(), Unit::parse(unit).unwrap());
+        let value = Distribution::constant(unit.from_si((parameter.get)(&afm.scene))).unwrap();
+        Factor::new(name, unit, value).unwrap()
+    });
+    constants.collect()
 }
 
 /// The outcome of an output at a point; its numbers in SI units.
@@ -145,14 +96,14 @@ fn evaluate(
     worker: &mut dyn Worker,
     x: &[f64],
     second: &Result<SecondCalculation, &'static str>,
-) -> Result<Vec<Finding>, GiveUp> {
+) -> Result<Vec<Finding>, String> {
     let mut batch = Batch::new(model);
     batch.reset(1);
     let inputs: Vec<&[f64]> = x.iter().map(std::slice::from_ref).collect();
     worker.run(&inputs, &mut batch);
     batch.settle();
     if let Some(give_up) = batch.given_up() {
-        return Err(give_up.clone());
+        return Err(give_up.to_string());
     }
     let outputs = 0..model.outputs().len();
     let values = outputs.clone().map(|output| match batch.failures().iter().find(|(failed, ..)| *failed == output) {

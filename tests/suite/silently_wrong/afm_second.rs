@@ -7,8 +7,8 @@ use apportion_afm::{
     ContactTheory, Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force,
 };
 
+use super::judge::{Reference, Unchecked};
 use super::precise::reference;
-use super::{Reference, Unchecked};
 
 /// Relative deviation below which two rungs agree.
 const FLOOR: f64 = 1e-6;
@@ -22,7 +22,7 @@ const HIGHER_ORDER: f64 = 1.5;
 const COVERED: &str = "the error estimate exceeds 0.1 %, and is confirmed: another rung differs by less";
 
 /// Other calculations of the outputs of an [`AfmModel`](apportion_afm::model::AfmModel).
-pub(crate) struct AfmSecond {
+pub struct AfmSecond {
     scene: Scene,
     options: Options,
     factors: Vec<&'static Parameter>,

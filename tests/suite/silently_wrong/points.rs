@@ -5,23 +5,21 @@ use apportion::space::{Factor, Space};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::map::{Grid, Kind, Tally};
+use super::map::Kind;
 
 /// Powers of ten past a bound.
 const POWERS: [i32; 9] = [0, 1, 2, 3, 6, 12, 30, 100, 300];
-/// Additional values below a lower bound: the smallest positive number, zero, and, if the bound is not negative, minus
-/// the upper bound.
-const SPECIAL: [&str; 3] = ["least", "0", "< 0"];
+/// Number of additional values below a lower bound: the smallest positive number, zero, and, if the bound is not
+/// negative, minus the upper bound.
+const SPECIAL: usize = 3;
 /// Powers of ten for several factors at once.
 const TOGETHER: [i32; 6] = [1, 2, 3, 6, 12, 30];
 /// Number of corners for the other factors while one goes past its bounds, in addition to the nominal point.
 const COMPANIONS: usize = 2;
 
 /// A point of the map.
-pub(super) struct Point {
+pub struct Point {
     pub kind: Kind,
-    /// Its cell as (grid, row, column).
-    pub cell: Option<(usize, usize, usize)>,
     /// The SI values of the factors.
     pub x: Vec<f64>,
     /// Its place, in words.
@@ -76,9 +74,9 @@ impl Reach {
         }
     }
 
-    /// Returns the values of the columns of grid 0 (below) or 1 (above); NaN for a missing one.
-    fn steps(&self, grid: usize) -> Vec<f64> {
-        if grid == 1 {
+    /// Returns the values below (0) or above (1) the bounds; NaN for a missing one.
+    fn steps(&self, side: usize) -> Vec<f64> {
+        if side == 1 {
             return POWERS.map(|power| self.above(power)).to_vec();
         }
         let negative = if self.low >= 0.0 { -self.high.abs() } else { f64::NAN };
@@ -86,22 +84,9 @@ impl Reach {
     }
 }
 
-/// Creates empty grids of the points below and above the bounds.
-pub(super) fn grids(space: &Space) -> Vec<Grid> {
-    let rows: Vec<String> = space.factors().iter().map(|factor| factor.name.replace('_', " ")).collect();
-    let above: Vec<String> = POWERS.iter().map(ToString::to_string).collect();
-    let below = above.iter().cloned().chain(SPECIAL.map(str::to_owned)).collect();
-    let sides: [(&str, Vec<String>); 2] = [("below", below), ("above", above)];
-    let grids = sides.map(|(side, columns)| {
-        let cells = vec![vec![Tally::default(); columns.len()]; rows.len()];
-        Grid { side: side.to_owned(), rows: rows.clone(), columns, cells }
-    });
-    grids.to_vec()
-}
-
 /// Returns all steps of every factor past its bounds, even if these are many, and about `count` points in all; random
 /// ones by `seed`.
-pub(super) fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
+pub fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
     let reaches: Vec<Reach> = space.factors().iter().map(Reach::new).collect();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut points = Vec::new();
@@ -127,13 +112,13 @@ fn corners(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec
             (None, 0 | 1) => corner(reaches, |_| number == 1),
             _ => corner(reaches, |_| rng.random()),
         };
-        points.push(Point { kind: Kind::Corners, cell: None, x, place: "a corner".to_owned() });
+        points.push(Point { kind: Kind::Corners, x, place: "a corner".to_owned() });
     }
 }
 
 /// Adds every factor from its bounds on, the others at the nominal point and, as far as `max` allows, at corners.
 fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
-    let steps = reaches.len() * (2 * POWERS.len() + SPECIAL.len());
+    let steps = reaches.len() * (2 * POWERS.len() + SPECIAL);
     let companions = (max / steps.max(1)).clamp(1, 1 + COMPANIONS);
     for (row, reach) in reaches.iter().enumerate().filter(|(_, reach)| reach.leaves) {
         for companion in 0..companions {
@@ -141,8 +126,8 @@ fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<
                 0 => reaches.iter().map(|reach| reach.nominal).collect(),
                 _ => corner(reaches, |_| rng.random()),
             };
-            for (grid, side) in ["below its lower", "above its upper"].into_iter().enumerate() {
-                let finite = reach.steps(grid).into_iter().enumerate().filter(|(_, value)| value.is_finite());
+            for (number, side) in ["below its lower", "above its upper"].into_iter().enumerate() {
+                let finite = reach.steps(number).into_iter().enumerate().filter(|(_, value)| value.is_finite());
                 for (column, value) in finite {
                     let mut x = others.clone();
                     x[row] = value;
@@ -150,7 +135,7 @@ fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<
                         Some(power) => format!("{} 10^{power} {side} bound", reach.name),
                         None => format!("{} at {value:e} in SI units", reach.name),
                     };
-                    points.push(Point { kind: Kind::Beyond, cell: Some((grid, row, column)), x, place });
+                    points.push(Point { kind: Kind::Beyond, x, place });
                 }
             }
         }
@@ -175,6 +160,6 @@ fn together(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Ve
                 moved += 1;
             }
         }
-        points.push(Point { kind: Kind::Together, cell: None, x, place: format!("{moved} factors past their bounds") });
+        points.push(Point { kind: Kind::Together, x, place: format!("{moved} factors past their bounds") });
     }
 }

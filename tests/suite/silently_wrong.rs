@@ -1,14 +1,21 @@
-//! The map of extremes: no study has a number that is silently wrong.
+//! The numbers of every study at the extremes of its inputs: right, flagged, refused, never silently wrong, see
+//! `docs/background/extremes.md`.
 
+mod afm_second;
 mod formulas;
+mod judge;
+mod map;
+mod placement;
 mod points;
+mod precise;
 
 use std::path::{Path, PathBuf};
 
 use apportion::Study;
-use apportion_cli::trade::extremes::{Extremes, ExtremesFile, ExtremesJob, Outcome, Reference, extremes};
+use judge::{Reference, extremes};
+use map::{Extremes, Outcome};
 
-use crate::common::{all_files, study_path, succeed, text};
+use crate::common::study_path;
 use crate::messages::messages;
 
 /// Every study of this repository.
@@ -35,7 +42,7 @@ fn loaded(path: &Path) -> Study {
 }
 
 fn map_of(study: &Study, points: u64, seed: u64) -> Extremes {
-    extremes(&ExtremesJob { points, seed, ..ExtremesJob::new(study) }).unwrap()
+    extremes(study, points, seed).unwrap()
 }
 
 #[track_caller]
@@ -53,15 +60,14 @@ fn no_study_is_silently_wrong() {
     let mut seen = 0;
     for path in studies() {
         let study = loaded(&path);
-        // The program refuses to map dependent factors.
         if !study.space().dependences().is_empty() {
             continue;
         }
-        let own = ExtremesJob::new(&study);
-        let map = match extremes(&ExtremesJob { points: own.points / 48, ..own }) {
+        let points = if study.model().concurrency().is_some() { 3 } else { 12 };
+        let map = match extremes(&study, points, study.design().settings().seed) {
             Ok(map) => map,
             // Not every machine has numpy.
-            Err(error) if error.to_string().contains("numpy") => continue,
+            Err(error) if error.contains("numpy") => continue,
             Err(error) => panic!("{}: {error}", study.name()),
         };
         assert_nothing_is_silently_wrong(study.name(), &map);
@@ -79,14 +85,6 @@ fn other_seeds_find_no_wrong_numbers() {
             assert_nothing_is_silently_wrong(name, &map_of(&study, 150, seed));
         }
     }
-}
-
-#[test]
-fn the_map_is_the_same_in_every_bit_on_any_threads() {
-    let study = apportion_files::load_study(&study_path("hk-general"), &[]).unwrap();
-    let on = |threads| extremes(&ExtremesJob { points: 60, seed: 5, threads, ..ExtremesJob::new(&study) }).unwrap();
-    // NaN is replaced by `None` here, so that equal maps compare equal.
-    assert_eq!(on(1), on(3));
 }
 
 /// A formula of which doubles keep no digit is flagged.
@@ -128,32 +126,7 @@ fn numbers_of_a_model_in_code_are_flagged_and_not_called_right() {
         .unwrap();
     let map = map_of(&study, 50, 0);
     assert!(map.counts.right == 0 && map.counts.flagged > 0, "{:?}", map.counts);
-    assert!(map.second_calculation.is_none() && map.unchecked.is_some());
-}
-
-#[test]
-fn the_command_writes_a_page_a_file_and_points_that_can_be_evaluated() {
-    let folder = tempfile::tempdir().unwrap();
-    let study = study_path("flood");
-    let out = text(folder.path());
-    let table = succeed(&["trade", text(&study), "--extremes", "--cells", "100", "--out", out, "--charts", "svg"]);
-    messages!().add_printed("--extremes", &table);
-    let names = all_files(folder.path());
-    for name in ["flood-extremes.html", "flood-extremes.json", "flood-extremes.csv", "charts/flood-extremes-above.svg"]
-    {
-        assert!(names.contains(name), "{name} is not among {names:?}");
-    }
-    let json = std::fs::read_to_string(folder.path().join("flood-extremes.json")).unwrap();
-    let file: ExtremesFile = serde_json::from_str(&json).unwrap();
-    assert_eq!((file.format.as_str(), file.version, file.map.counts.wrong), ("apportion-extremes", 2, 0));
-    let total: u64 = file.map.kinds.iter().map(|(_, counts)| counts.right).sum();
-    assert_eq!(total, file.map.counts.right);
-    assert_eq!(file.map.grids[0].cells.len(), 8);
-}
-
-#[test]
-fn options_of_the_map_need_the_map() {
-    messages!().refused(&["trade", text(&study_path("flood")), "--cells", "5"]);
+    assert!(map.second_calculation.is_none());
 }
 
 /// A number may differ by what is stated, and is right within the tolerance only.
