@@ -7,6 +7,10 @@
 //! function, even if the model is linear in it. A discrete factor steps by its rank among its values, between two
 //! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
+//! In a study whose indices are those of groups all factors of a group step at once, and the effect is over the root mean
+//! square of their steps; its sign means nothing, so that a group has mu* alone (Campolongo, Cariboni and Saltelli 2007).
+//! Constants do not step.
+//!
 //! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] summarises them, [`Reading`]
 //! interprets them. A factor could be fixed if its upper bound of mu* is below [`Screening::FIXABLE`] times the largest.
 //!
@@ -35,7 +39,8 @@ use crate::model::{Model, RunContext};
 use crate::result::FailureCount;
 use crate::run::{Store, TableRun};
 use crate::runner::Runner;
-use crate::space::{Distribution, Factor, Space};
+use crate::space::{Group, Space};
+use crate::study::Study;
 use crate::uncertainty::{Estimate, Interval, RULE_OF_THREE};
 use apportion_base::quantity::Unlikely;
 use apportion_base::sum::mean;
@@ -69,7 +74,7 @@ pub struct ScreenedOutput {
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// One entry per factor, in the order of the space.
+    /// One entry per factor that is not a constant, in the order of the space; or per group in place of its factors.
     pub factors: Vec<ScreenedFactor>,
     /// Why runs failed.
     pub failures: Vec<FailureCount>,
@@ -77,11 +82,11 @@ pub struct ScreenedOutput {
     pub warnings: Vec<String>,
 }
 
-/// The results of a screening for one factor and one output. Measures are in the output's unit per full range of the
-/// factor; they are `None` with fewer than two effects, or if they overflow.
+/// The results of a screening for one factor, or group, and one output. Measures are in the output's unit per full range
+/// of the factor; they are `None` with fewer than two effects, or if they overflow, and those but mu* for a group.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedFactor {
-    /// The factor.
+    /// The factor or group.
     pub factor: String,
     /// Rank by mu*, from 1; factors without measures come last.
     pub rank: usize,
@@ -102,7 +107,7 @@ pub struct ScreenedFactor {
     pub effects: u64,
     /// Number of effects dropped because a run at either end failed.
     pub dropped: u64,
-    /// Number of steps that did not change its value, as for a constant; their effect is 0.
+    /// Number of steps that did not change its value; their effect is 0.
     pub idle_steps: u64,
 }
 
@@ -133,67 +138,84 @@ impl Runner<'_> {
     /// [`ScreeningError`] if the settings are invalid, the model gives up, the run is to stop, or the journal cannot be
     /// used or written. Failed runs are part of the result.
     pub fn screen(self, settings: ScreeningSettings) -> Result<Screening, ScreeningError> {
-        let space = self.study.space();
-        let (settings, _) = settings.in_force(space.factors().len())?;
-        let runs = settings.trajectories * (space.factors().len() as u64 + 1);
-        self.run_table(json!(settings), Some(runs), |run| screen_by(run, space, settings))
+        let (study, movers) = (self.study, movers(self.study));
+        let (settings, _) = settings.in_force(movers.len())?;
+        let runs = settings.trajectories * (movers.len() as u64 + 1);
+        self.run_table(json!(settings), Some(runs), |run| screen_by(run, study.space(), movers, settings))
     }
 }
 
-/// Returns the [`points`] of `space` as a screening with the outputs of `store`, which has all of their rows.
+/// Returns what steps in a screening of `study`: the factors but constants, or groups in place of theirs.
+pub fn movers(study: &Study) -> Vec<Group> {
+    stepping(study.space(), study.analysis().members(study.space()))
+}
+
+/// Returns `members` without constants.
+fn stepping(space: &Space, mut members: Vec<Group>) -> Vec<Group> {
+    let constants = space.constants();
+    members.iter_mut().for_each(|member| member.factors.retain(|factor| !constants.contains(factor)));
+    members.retain(|member| !member.factors.is_empty());
+    members
+}
+
+/// Returns the [`points`] of `study` as a screening with the outputs of `store`, which has all of their rows.
 ///
 /// # Errors
 /// [`ScreeningError`] if the settings are invalid.
-pub fn screen_stored(
-    space: &Space,
-    model: &dyn Model,
-    settings: ScreeningSettings,
-    store: &Store,
-) -> Result<Screening, ScreeningError> {
-    let context = RunContext::default();
-    let mut run = TableRun::new(model, &context, 1);
+pub fn screen_stored(study: &Study, settings: ScreeningSettings, store: &Store) -> Result<Screening, ScreeningError> {
+    let (model, context) = (study.model(), RunContext::default());
+    let mut run = TableRun::new(model.as_ref(), &context, 1);
     run.store = Some(store);
-    screen_by(&run, space, settings)
+    screen_by(&run, study.space(), movers(study), settings)
 }
 
-/// Returns the points of a screening, trajectory by trajectory: for each factor of `space` a column of SI values.
+/// Returns the points of a screening, trajectory by trajectory: for each factor of `study` a column of SI values.
 ///
 /// # Errors
 /// [`ScreeningError`] if the settings are invalid or the factors depend on each other.
-pub fn points(space: &Space, settings: ScreeningSettings) -> Result<Vec<Vec<f64>>, ScreeningError> {
-    let (settings, _, points) = prepared(space, settings)?;
+pub fn points(study: &Study, settings: ScreeningSettings) -> Result<Vec<Vec<f64>>, ScreeningError> {
+    let (space, movers) = (study.space(), movers(study));
+    let mut idle = vec![0; movers.len()];
+    let (settings, _, points) = prepared(space, movers, settings)?;
     let moves: Vec<Vec<Move>> = (0..settings.trajectories).map(|number| points.moves(number)).collect();
-    Ok(points.columns(space.factors(), &moves, &mut vec![0; space.factors().len()]))
+    Ok(points.columns(space.factors(), &moves, &mut idle))
 }
 
 /// Returns the settings in force, the number of parts and the trajectories.
 fn prepared(
     space: &Space,
+    movers: Vec<Group>,
     settings: ScreeningSettings,
 ) -> Result<(ScreeningSettings, u64, Trajectories), ScreeningError> {
     if space.copula().is_some() {
         return Err(ScreeningError::Dependent);
     }
-    let (settings, parts) = settings.in_force(space.factors().len())?;
-    Ok((settings, parts, Trajectories::new(space, &settings, parts)?))
+    let (settings, parts) = settings.in_force(movers.len())?;
+    Ok((settings, parts, Trajectories::new(space, movers, &settings, parts)?))
 }
 
-fn screen_by(run: &TableRun<'_>, space: &Space, settings: ScreeningSettings) -> Result<Screening, ScreeningError> {
-    let (settings, parts, points) = prepared(space, settings)?;
+fn screen_by(
+    run: &TableRun<'_>,
+    space: &Space,
+    movers: Vec<Group>,
+    settings: ScreeningSettings,
+) -> Result<Screening, ScreeningError> {
+    let (settings, parts, points) = prepared(space, movers, settings)?;
     let outcome = run::run(space, &points, settings.trajectories, run)?;
-    Ok(summary(space, run.model(), (settings, parts), &outcome))
+    Ok(summary(space, &points.movers, run.model(), (settings, parts), &outcome))
 }
 
 /// Returns the measures of all outputs, from effects in this number of parts.
 fn summary(
     space: &Space,
+    movers: &[Group],
     model: &dyn Model,
     (settings, parts): (ScreeningSettings, u64),
     outcome: &Outcome,
 ) -> Screening {
     let mut outputs = Vec::with_capacity(model.outputs().len());
     for (number, output) in model.outputs().iter().enumerate() {
-        let screened = screened(model, number, outcome, space.factors(), parts as usize);
+        let screened = screened(model, number, outcome, movers, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
         let unlikely = Unlikely::find(&values).map(|value| value.in_runs(value.first + 1));
         outputs.push(ScreenedOutput {
@@ -217,10 +239,10 @@ impl ScreenedFactor {
     /// usual `size` were missed, at 95 %.
     fn allow_for_unseen(&mut self, size: f64) {
         let share = (RULE_OF_THREE / self.effects as f64).min(1.0);
-        let between = |low: f64, high: f64| Some(Estimate { estimate: 0.0, interval: Some(Interval { low, high }) });
-        self.mu = between(-share * size, share * size);
-        self.mu_star = between(0.0, share * size);
-        self.sigma = between(0.0, share.sqrt() * size);
+        let between = |low: f64, high: f64| Estimate { estimate: 0.0, interval: Some(Interval { low, high }) };
+        self.mu = self.mu.map(|_| between(-share * size, share * size));
+        self.mu_star = Some(between(0.0, share * size));
+        self.sigma = self.sigma.map(|_| between(0.0, share.sqrt() * size));
     }
 }
 
@@ -247,26 +269,28 @@ fn dropped_effects(factors: &[ScreenedFactor]) -> Option<String> {
     })
 }
 
-/// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
+/// Returns the results for `movers` and output number `number`, from its effects in SI units, mover by mover
 /// within each trajectory, in `parts` independent parts.
 fn screened(
     model: &dyn Model,
     number: usize,
     outcome: &Outcome,
-    space: &[Factor],
+    movers: &[Group],
     parts: usize,
 ) -> Vec<ScreenedFactor> {
     let output = &model.outputs()[number];
-    let mut screened = Vec::with_capacity(space.len());
-    for (j, factor) in space.iter().enumerate() {
-        let effects = outcome.effects[number].iter().skip(j).step_by(space.len());
+    let mut screened = Vec::with_capacity(movers.len());
+    for (j, mover) in movers.iter().enumerate() {
+        let effects = outcome.effects[number].iter().skip(j).step_by(movers.len());
         let effects: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
         let finite = effects.iter().filter(|effect| effect.is_finite()).count() as u64;
         let measures = measures::measures(&effects, parts);
-        let [mu, mu_star, sigma, ratio] = std::array::from_fn(|place| measures.map(|measures| measures[place]));
+        let mu_star = measures.map(|measures| measures[1]);
+        let of_factor = measures.filter(|_| mover.factors.len() == 1);
+        let [mu, sigma, ratio] = [0, 2, 3].map(|place| of_factor.map(|measures| measures[place]));
         let ratio = ratio.filter(|ratio: &Estimate| ratio.estimate.is_finite());
         screened.push(ScreenedFactor {
-            factor: factor.name.clone(),
+            factor: mover.name.clone(),
             rank: 0,
             mu_star,
             mu,
@@ -283,14 +307,13 @@ fn screened(
         outcome.effects[number].iter().filter(|effect| effect.abs() > 0.0).map(|effect| effect.abs()).collect();
     let size = output.unit.span_from_si(mean(&changes));
     for (j, factor) in screened.iter_mut().enumerate().filter(|(_, factor)| factor.has_no_effect()) {
-        let is_exact = matches!(space[j].distribution(), Distribution::Constant(_)) || !model.reads(number, j);
-        if !is_exact && size.is_finite() {
+        if movers[j].factors.iter().any(|&factor| model.reads(number, factor)) && size.is_finite() {
             factor.allow_for_unseen(size);
         }
     }
     let sizes: Vec<f64> =
         screened.iter().map(|factor| factor.mu_star.map_or(f64::NEG_INFINITY, |mu_star| mu_star.estimate)).collect();
-    let mut order: Vec<usize> = (0..space.len()).collect();
+    let mut order: Vec<usize> = (0..movers.len()).collect();
     order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));
     let largest = order.first().map_or(0.0, |&first| sizes[first]);
     for (place, &j) in order.iter().enumerate() {

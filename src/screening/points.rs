@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
-use crate::space::{Distribution, Factor, Space};
+use crate::space::{Distribution, Factor, Group, Space};
 
 /// End of the grid on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
 const TAIL: f64 = 1e-3;
@@ -19,7 +19,7 @@ pub(super) struct Move {
     pub step: f64,
     /// The row of the trajectory before the step.
     pub before: usize,
-    /// The row after it.
+    /// The row after it; 0 for a constant, which does not step.
     pub after: usize,
 }
 
@@ -27,8 +27,10 @@ pub(super) struct Move {
 pub(super) struct Trajectories {
     shape: Shape,
     seed: u64,
-    /// For each factor, its possible positions.
-    grids: Vec<Grid>,
+    /// What steps: factors, or groups of which all factors step at once.
+    pub movers: Vec<Group>,
+    /// For each factor, its possible positions, and the number of its mover; `None` for a constant.
+    grids: Vec<(Grid, Option<usize>)>,
 }
 
 enum Shape {
@@ -65,8 +67,13 @@ impl Level {
 }
 
 impl Trajectories {
-    /// Prepares the trajectories of `settings`, which are rounded, for intervals from `parts` parts.
-    pub fn new(space: &Space, settings: &ScreeningSettings, parts: u64) -> Result<Self, ScreeningError> {
+    /// Prepares the trajectories of `movers`, with `settings`, which are rounded, for intervals from `parts` parts.
+    pub fn new(
+        space: &Space,
+        movers: Vec<Group>,
+        settings: &ScreeningSettings,
+        parts: u64,
+    ) -> Result<Self, ScreeningError> {
         let ScreeningSettings { design, trajectories, seed } = *settings;
         let shape = match design {
             ScreeningDesign::Radial { sampler } => {
@@ -78,7 +85,15 @@ impl Trajectories {
             }
             ScreeningDesign::Trajectory { .. } => Shape::Walk,
         };
-        Ok(Self { shape, seed, grids: space.factors().iter().map(|factor| Grid::new(factor, design)).collect() })
+        let mover_of = |number| movers.iter().position(|mover| mover.factors.contains(&number));
+        let factors = space.factors().iter().enumerate();
+        let grids = factors.map(|(number, factor)| (Grid::new(factor, design), mover_of(number))).collect();
+        Ok(Self { shape, seed, movers, grids })
+    }
+
+    /// Returns the number of rows of a trajectory.
+    pub fn rows(&self) -> usize {
+        self.movers.len() + 1
     }
 
     /// Returns the moves of all factors in trajectory `number`.
@@ -105,15 +120,23 @@ impl Trajectories {
     }
 
     /// Returns a column of SI values for each factor, with the rows of these trajectories, and adds to `idle` the number of
-    /// its steps that do not change its value.
+    /// the steps of each mover that do not change a value.
     pub fn columns(&self, factors: &[Factor], moves: &[Vec<Move>], idle: &mut [u64]) -> Vec<Vec<f64>> {
-        let rows = factors.len() + 1;
+        let rows = self.rows();
         let mut columns = vec![vec![0.0; rows * moves.len()]; factors.len()];
+        let mut changes = vec![false; moves.len() * self.movers.len()];
         for (j, (column, factor)) in columns.iter_mut().zip(factors).enumerate() {
-            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(rows)) {
+            for (number, (moves, column)) in moves.iter().zip(column.chunks_exact_mut(rows)).enumerate() {
                 let values = values_at(factor, &moves[j].u);
-                idle[j] += u64::from(values[0] == values[1]);
+                if let Some(mover) = self.grids[j].1 {
+                    changes[number * self.movers.len() + mover] |= values[0] != values[1];
+                }
                 self.fill(&moves[j], values, column);
+            }
+        }
+        for changes in changes.chunks_exact(self.movers.len().max(1)) {
+            for (idle, changes) in idle.iter_mut().zip(changes) {
+                *idle += u64::from(!changes);
             }
         }
         columns
@@ -127,7 +150,7 @@ impl Trajectories {
         let mut columns = vec![vec![0.0]; 2 * factors];
         points.fill(index, &mut columns);
         let mut moves = Vec::with_capacity(factors);
-        for (j, grid) in self.grids.iter().enumerate() {
+        for (j, (grid, mover)) in self.grids.iter().enumerate() {
             let (a, b) = (columns[j][0], columns[factors + j][0]);
             let (u, step) = match grid {
                 Grid::Continuous => {
@@ -139,23 +162,23 @@ impl Trajectories {
                 // Only walks have grids.
                 Grid::Levels(levels) => between(levels, 0, levels.len() - 1),
             };
-            moves.push(Move { u, step, before: 0, after: j + 1 });
+            moves.push(Move { u, step, before: 0, after: mover.map_or(0, |mover| mover + 1) });
         }
         moves
     }
 
     /// Generates one of Morris's walks. All levels of a grid are equally likely to be the first, as are all orders of
-    /// the factors. Every other walk has steps of a third of the grid: to Morris's step, half the grid, an output of
+    /// the movers. Every other walk has steps of a third of the grid: to Morris's step, half the grid, an output of
     /// that period is constant.
     fn walk(&self, number: u64) -> Vec<Move> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number);
-        let mut position: Vec<usize> = (0..self.grids.len()).collect();
+        let mut position: Vec<usize> = (0..self.movers.len()).collect();
         for last in (1..position.len()).rev() {
             position.swap(last, rng.random_range(0..=last));
         }
         let mut moves = Vec::with_capacity(self.grids.len());
-        for (grid, row) in self.grids.iter().zip(position) {
+        for (grid, mover) in &self.grids {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is irrelevant.
                 Grid::Continuous => ([0.5, 0.5], 1.0),
@@ -172,7 +195,8 @@ impl Trajectories {
                     between(levels, from, if up { from + stride } else { from - stride })
                 }
             };
-            moves.push(Move { u, step, before: row, after: row + 1 });
+            let before = mover.map_or(0, |mover| position[mover]);
+            moves.push(Move { u, step, before, after: before + usize::from(mover.is_some()) });
         }
         moves
     }

@@ -5,16 +5,17 @@ use std::collections::BTreeMap;
 use super::points::{Move, Trajectories};
 use crate::model::{Batch, RowFailure};
 use crate::run::{RunError, TableRun, failed_rows};
-use crate::space::Space;
+use crate::space::{Group, Space};
+use apportion_base::sum::mean;
 
 /// The results of some trajectories.
 #[derive(Debug, Default)]
 pub(super) struct Outcome {
-    /// For each output, factor by factor within each trajectory: the effect in SI units, NaN if missing.
+    /// For each output, mover by mover within each trajectory: the effect in SI units, NaN if missing.
     pub effects: Vec<Vec<f64>>,
     /// For each output, row by row within each trajectory: the value in SI units, NaN if missing.
     pub values: Vec<Vec<f64>>,
-    /// For each factor: steps that did not change its value.
+    /// For each mover: steps that did not change a value.
     pub idle: Vec<u64>,
     /// For each output and reason: the failed runs, and the first one's factor values in SI units.
     pub failures: BTreeMap<(usize, RowFailure), (u64, Vec<f64>)>,
@@ -32,14 +33,14 @@ pub(super) fn run(
     run: &TableRun<'_>,
 ) -> Result<Outcome, RunError> {
     let (factors, model) = (space.factors(), run.model());
-    let rows = factors.len() + 1;
+    let (movers, rows) = (&points.movers, points.rows());
     // Whole trajectories, at least one.
     let block = (run.rows_at_once() / rows).max(1) as u64;
     let mut batch = Batch::new(model);
     let mut outcome = Outcome {
         effects: vec![Vec::new(); model.outputs().len()],
         values: vec![Vec::new(); model.outputs().len()],
-        idle: vec![0; factors.len()],
+        idle: vec![0; movers.len()],
         flags: vec![0; model.flags().len()],
         ..Outcome::default()
     };
@@ -52,7 +53,7 @@ pub(super) fn run(
         run.run(&inputs, &mut batch)?;
         for (output, (effects, values)) in outcome.effects.iter_mut().zip(&mut outcome.values).enumerate() {
             for (moves, values) in moves.iter().zip(batch.column(output).chunks_exact(rows)) {
-                effects.extend(moves.iter().map(|a_move| effect(a_move, values)));
+                effects.extend(movers.iter().map(|mover| effect(mover, moves, values)));
             }
             values.extend(batch.column(output));
         }
@@ -61,9 +62,13 @@ pub(super) fn run(
     Ok(outcome)
 }
 
-/// Returns the difference of the output over the step; NaN if a run failed or the quotient overflows.
-fn effect(Move { step, before, after, .. }: &Move, values: &[f64]) -> f64 {
-    let effect = (values[*after] - values[*before]) / step;
+/// Returns the difference of the output over the step of a mover, for a group the root mean square of its factors' steps;
+/// NaN if a run failed or the quotient overflows.
+fn effect(mover: &Group, moves: &[Move], values: &[f64]) -> f64 {
+    let Move { step, before, after, .. } = moves[mover.factors[0]];
+    let squares = mover.factors.iter().map(|&factor| moves[factor].step * moves[factor].step);
+    let step = if mover.factors.len() == 1 { step } else { mean(&squares.collect::<Vec<f64>>()).sqrt() };
+    let effect = (values[after] - values[before]) / step;
     if effect.is_finite() { effect } else { f64::NAN }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::run::Outcome;
 use super::settings::{MIN_TRAJECTORIES, ScreeningDesign, ScreeningSettings};
-use super::{Screening, summary};
+use super::{Screening, movers, summary};
 use crate::given::Column;
 use crate::model::Output;
 use crate::space::Distribution;
@@ -58,6 +58,6 @@ pub fn screen_table(name: &str, inputs: &[Column], outputs: &[Column]) -> Option
     let parts = (1..=trajectories.min(1 << 12)).rev().find(|parts| trajectories.is_multiple_of(*parts))?;
     let design = ScreeningDesign::Trajectory { levels: levels.len() as u32 };
     let settings = ScreeningSettings { design, trajectories: trajectories as u64, seed: 0 };
-    let screening = summary(study.space(), study.model().as_ref(), (settings, parts as u64), &outcome);
+    let screening = summary(study.space(), &movers(&study), study.model().as_ref(), (settings, parts as u64), &outcome);
     Some((study, screening))
 }

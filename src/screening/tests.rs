@@ -7,7 +7,7 @@ use super::points::Trajectories;
 use super::*;
 use crate::design::{DesignError, Sampler};
 use crate::model::{Batch, Output, RowFailure, RunContext, Worker};
-use crate::space::{Distribution, Factor};
+use crate::space::{Distribution, Factor, IndicesOf};
 use apportion_base::quantity::Unit;
 
 /// A closure as a model of one output; a row without an answer fails.
@@ -60,6 +60,10 @@ fn unit_cube(factors: usize) -> Space {
     space((0..factors).map(|_| uniform(0.0, 1.0)))
 }
 
+fn factors_of(space: &Space) -> Vec<Group> {
+    stepping(space, space.members(IndicesOf::Factors))
+}
+
 fn settings(design: ScreeningDesign, trajectories: u64) -> ScreeningSettings {
     ScreeningSettings { design, trajectories, seed: 0 }
 }
@@ -71,7 +75,7 @@ const WALK: ScreeningDesign = ScreeningDesign::Trajectory { levels: 4 };
 const DESIGNS: [ScreeningDesign; 4] = [SOBOL, RANDOM, LATIN, WALK];
 
 fn screened<F: Fn(&[f64]) -> Option<f64> + Send + Sync>(space: &Space, settings: ScreeningSettings, f: F) -> Screening {
-    screen_by(&TableRun::new(&function(f), &RunContext::default(), 0), space, settings).unwrap()
+    screen_by(&TableRun::new(&function(f), &RunContext::default(), 0), space, factors_of(space), settings).unwrap()
 }
 
 /// The measures of a factor that has them.
@@ -206,7 +210,7 @@ fn steps_are_never_tiny_and_points_never_at_the_ends() {
     let space = unit_cube(7);
     for design in [SOBOL, RANDOM, LATIN] {
         let (settings, parts) = settings(design, 512).in_force(7).unwrap();
-        let points = Trajectories::new(&space, &settings, parts).unwrap();
+        let points = Trajectories::new(&space, factors_of(&space), &settings, parts).unwrap();
         for number in 0..512 {
             for m in points.moves(number) {
                 assert!((m.u[1] - m.u[0]).abs() >= ScreeningSettings::MIN_STEP && m.step == m.u[1] - m.u[0], "{m:?}");
@@ -220,7 +224,7 @@ fn steps_are_never_tiny_and_points_never_at_the_ends() {
 fn a_walk_visits_all_levels_and_orders() {
     let (settings, parts) = settings(WALK, 600).in_force(3).unwrap();
     let space = unit_cube(3);
-    let points = Trajectories::new(&space, &settings, parts).unwrap();
+    let points = Trajectories::new(&space, factors_of(&space), &settings, parts).unwrap();
     let (mut orders, mut starts) = (BTreeSet::new(), [0; 4]);
     for number in 0..settings.trajectories {
         let moves = points.moves(number);
@@ -244,10 +248,34 @@ fn discrete_factors_step_by_rank_and_constants_do_not_step() {
         let screening = screened(&space, settings(design, 32), |x| Some(x[0] - 3.0 * x[1] + x[2] + x[3]));
         let m = measured(&screening);
         let found: Vec<f64> = m.iter().map(|m| m.mu.estimate).collect();
-        assert_eq!(found, [4.0, -6.0, 0.0, 0.0], "{design:?}");
+        assert_eq!(found, [4.0, -6.0, 0.0], "{design:?}");
         assert!(m.iter().all(|m| m.sigma.estimate == 0.0));
         let idle: Vec<u64> = screening.outputs[0].factors.iter().map(|factor| factor.idle_steps).collect();
-        assert_eq!(idle, [0, 0, 32, 32]);
+        assert_eq!((screening.runs, idle), (32 * 4, vec![0, 0, 32]));
+    }
+}
+
+/// Of a + 2 b - c - 3 d with the group of a and c, which step at once, by different parts of their ranges in radial points.
+#[test]
+fn a_group_steps_at_once_and_has_the_mean_of_its_sizes() {
+    let mut factors: Vec<Factor> = unit_cube(4).factors().to_vec();
+    factors.iter_mut().step_by(2).for_each(|factor| factor.group = Some("g".to_owned()));
+    let space = Space::new(factors);
+    let movers = stepping(&space, space.members(IndicesOf::Groups));
+    let model = function(|x| Some(x[0] + 2.0 * x[1] - x[2] - 3.0 * x[3]));
+    for design in DESIGNS {
+        let context = RunContext::default();
+        let screening =
+            screen_by(&TableRun::new(&model, &context, 0), &space, movers.clone(), settings(design, 4096)).unwrap();
+        assert_eq!(screening.runs, 4096 * 4);
+        let [group, b, d] = &screening.outputs[0].factors[..] else { panic!("three of them") };
+        assert_eq!((&*group.factor, &*b.factor, &*d.factor), ("g", "x1", "x3"));
+        assert!(group.mu.is_none() && group.sigma.is_none() && group.reading.is_none());
+        let estimates = [b, d].map(|factor| factor.mu.unwrap().estimate);
+        assert!((estimates[0] - 2.0).abs() < 1e-12 && (estimates[1] + 3.0).abs() < 1e-12);
+        // Two steps of equal size in either direction: 0 or 2. Of independent steps s and t, |s - t|/sqrt((s^2 + t^2)/2).
+        let mean = group.mu_star.unwrap().estimate;
+        assert!((mean - if design == WALK { 1.0 } else { 1.273 }).abs() < 0.05, "{design:?}: {mean}");
     }
 }
 
@@ -271,7 +299,8 @@ fn levels_are_met_as_often_as_they_are_likely() {
     let expected = 0.002 * (1.0 + 2.0 * 0.499 / 0.501);
     for design in [SOBOL, RANDOM, WALK] {
         let (settings, parts) = settings(design, 1 << 14).in_force(1).unwrap();
-        let points = Trajectories::new(&space([law.clone()]), &settings, parts).unwrap();
+        let space = space([law.clone()]);
+        let points = Trajectories::new(&space, factors_of(&space), &settings, parts).unwrap();
         let is_rare = |number: &u64| points.moves(*number)[0].u.iter().any(|u| *u > 0.998);
         let found = (0..settings.trajectories).filter(is_rare).count() as f64 / settings.trajectories as f64;
         // Standard error 6e-4 for independent draws.
@@ -299,7 +328,7 @@ fn failed_runs_drop_their_effects_and_are_counted() {
         let screening = screened(&space, settings, answer);
         let output = &screening.outputs[0];
         let (in_force, parts) = settings.in_force(3).unwrap();
-        let points = Trajectories::new(&space, &in_force, parts).unwrap();
+        let points = Trajectories::new(&space, factors_of(&space), &in_force, parts).unwrap();
         let (mut failed, mut dropped) = (0, [0; 3]);
         for number in 0..in_force.trajectories {
             let moves = points.moves(number);
@@ -366,7 +395,8 @@ fn the_result_is_the_same_on_any_number_of_threads() {
     for design in DESIGNS {
         let [one, two, five] = [1, 2, 5].map(|threads| {
             let context = RunContext::default();
-            screen_by(&TableRun::new(&model, &context, threads), &space, settings(design, 256)).unwrap()
+            screen_by(&TableRun::new(&model, &context, threads), &space, factors_of(&space), settings(design, 256))
+                .unwrap()
         });
         assert!(one == two && one == five);
     }
@@ -409,7 +439,9 @@ fn settings_are_checked_and_rounded() {
     let model = function(|_| Some(0.0));
     let space = unit_cube(3000);
     let context = RunContext::default();
-    let error = screen_by(&TableRun::new(&model, &context, 1), &space, ScreeningSettings::default()).unwrap_err();
+    let error =
+        screen_by(&TableRun::new(&model, &context, 1), &space, factors_of(&space), ScreeningSettings::default())
+            .unwrap_err();
     assert!(matches!(error, ScreeningError::Design(DesignError::TooManyFactors { factors: 3000 })), "{error}");
 }
 

@@ -230,3 +230,20 @@ fn codes_for_missing_values_are_warned_of() {
         assert!(said.contains("-9999.0"), "{command}: {said}");
     }
 }
+
+#[test]
+fn groups_step_at_once_and_constants_never() {
+    let folder = Folder::new();
+    let study = folder.with(
+        "groups.toml",
+        "model = \"expression\"\noutputs.y = \"a + 2*b + c*b\"\n[analysis]\nindices_of = \"groups\"\n[factors]\n\
+         a = { min = 0, max = 1 }\nb = { min = 0, max = 1, group = \"g\" }\n\
+         c = { distribution = \"constant\", value = 3, group = \"g\" }\nd = { distribution = \"constant\", value = 3 }\n",
+    );
+    let (_, file, _) = screened(text(&study).trim_end_matches(".toml"), &["--trajectories", "64", "--charts", "svg"]);
+    assert_eq!(file.provenance.model_runs, 64 * 3);
+    let [a, g] = &file.outputs[0].factors[..] else { panic!("{:?}", file.outputs[0].factors) };
+    assert_eq!((&*a.factor, &*g.factor), ("a", "g"));
+    let sizes = [a, g].map(|factor| factor.mu_star.unwrap().estimate);
+    assert!((sizes[0] - 1.0).abs() < 1e-12 && (sizes[1] - 5.0).abs() < 1e-11, "{sizes:?}");
+}

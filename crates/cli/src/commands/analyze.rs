@@ -59,7 +59,7 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let artefacts = arguments.output.artefacts(study.name(), inputs).prepare(&format!("{}{ending}", study.name()))?;
     if let Some(settings) = screening {
         let model = study.model();
-        let screening = screen_stored(study.space(), model.as_ref(), settings, &store)?;
+        let screening = screen_stored(&study, settings, &store)?;
         let file = build_screening(&study, model.as_ref(), &screening, RunFacts::default());
         return output::deliver(&artefacts, &screening_document(&file));
     }

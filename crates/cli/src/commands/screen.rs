@@ -5,7 +5,7 @@ use std::time::Instant;
 use apportion::design::Sampler;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
-use apportion::screening::{ScreeningDesign, ScreeningSettings};
+use apportion::screening::{ScreeningDesign, ScreeningSettings, movers};
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
 
@@ -19,7 +19,7 @@ use crate::failure::bad_input;
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Number of trajectories; each costs (1 + factors) runs
+    /// Number of trajectories; each costs (1 + factors) runs, or (1 + groups)
     #[arg(long, value_name = "R", default_value_t = 32, allow_negative_numbers = true)]
     trajectories: u64,
     /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), or trajectory (Morris 1991)
@@ -63,7 +63,8 @@ pub fn screening_design(name: &str, levels: Option<u32>, sampler: Sampler) -> Sc
 pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     let settings = arguments.settings(&study)?;
-    let (in_force, _) = settings.in_force(study.space().factors().len())?;
+    let stepping = movers(&study).len();
+    let (in_force, _) = settings.in_force(stepping)?;
     if in_force.trajectories != settings.trajectories {
         let (requested, used) = (settings.trajectories, in_force.trajectories);
         say(&format!("note: {requested} trajectories do not make equal parts for the intervals: {used} are used"));
@@ -71,7 +72,7 @@ pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
     let model = study.model();
     let artefacts = arguments.output.prepared(&study, "-screen", Some(&arguments.journal))?;
     let journal = artefacts.journal.as_deref();
-    let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
+    let runs = in_force.trajectories * (stepping as u64 + 1);
     let meter = Meter::new(study.name(), runs);
     let start = Instant::now();
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));

@@ -34,7 +34,7 @@ impl<'a> Points<'a> {
     /// [`ScreeningError`] if the settings are invalid or the factors depend on each other.
     pub fn from_study(study: &'a Study, screening: Option<ScreeningSettings>) -> Result<Self, ScreeningError> {
         let Some(settings) = screening else { return Ok(Self::Design(study.design())) };
-        Ok(Self::Screening(settings, screening::points(study.space(), settings)?))
+        Ok(Self::Screening(settings, screening::points(study, settings)?))
     }
 
     /// Returns their number.

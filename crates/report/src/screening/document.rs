@@ -25,7 +25,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
             warnings: &output.warnings,
             answer: format!("{} {}", leader(output), fixable(output)),
             parts: failures(failed).into_iter().chain([effects(output).into()]).collect(),
-            charts: vec![("-bars", bars(file, output)), ("", scatter(file, output))],
+            charts: [("-bars", bars(file, output))].into_iter().chain(scatter(file, output).map(|c| ("", c))).collect(),
         }
     });
     let provenance = &file.provenance;
@@ -131,13 +131,14 @@ fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
     Axis::new(symbol, axis_unit(&output.unit))
 }
 
-/// Draws mu* against sigma.
-pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+/// Draws mu* against sigma; `None` where groups, which have no sigma, are all there is.
+pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Option<Chart> {
     let effects: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
         .iter()
         .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
         .collect();
+    effects.first()?;
     let points = readings().flat_map(|reading| {
         let members = effects.iter().filter(move |(factor, ..)| factor.reading == reading);
         members.map(move |&(factor, x, y)| {
@@ -160,7 +161,7 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         Series::new(name, Colour::Reference).stroke(stroke).line(vec![(0.0, 0.0), (end, slope * end)])
     });
     let (x, y) = (axis("μ*, mean size of the effects", output), axis("σ, standard deviation of the effects", output));
-    Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
+    Some(Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)]))
 }
 
 /// Iterates over the readings, that of factors without effect last.
