@@ -1,6 +1,7 @@
 //! Arrays of points and outputs that exist already.
 
 use apportion::given::{Column, analyse, average_replicates, measures as measured, surrogate_indices};
+use apportion_base::quantity::Unlikely;
 use apportion_report::given::{GivenFacts, build_given, given_document};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -56,9 +57,14 @@ pub fn given_data(
     watched(py, work)?.map_err(|reason: String| input(reason))
 }
 
-/// What is unlikely among outputs, as a code for a missing value, if anything is.
+/// Describes a value among outputs of a design that may mark missing ones; `independent` are those of A and B. `None` if there
+/// is none.
 #[pyfunction]
-pub fn unlikely(y: PyReadonlyArray1<'_, f64>) -> Option<String> {
+pub fn unlikely(y: PyReadonlyArray1<'_, f64>, independent: PyReadonlyArray1<'_, f64>) -> Option<String> {
     let y = y.as_array().to_vec();
-    apportion_base::quantity::Unlikely::find(&y).map(|unlikely| unlikely.in_table(unlikely.first + 1))
+    let unlikely = Unlikely::find(&y).or_else(|| Unlikely::find_in_rows(&independent.as_array().to_vec()))?;
+    let (count, first) =
+        (y.iter().filter(|y| **y == unlikely.value).count(), y.iter().position(|y| *y == unlikely.value)?);
+    let of = y.iter().filter(|y| y.is_finite()).count();
+    Some(Unlikely { count, first, of, ..unlikely }.in_table(first + 1))
 }

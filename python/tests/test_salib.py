@@ -222,3 +222,15 @@ def test_shuffled_trajectories_are_put_in_order():
         assert np.abs(plain[measure] - shuffled[measure]).max() < 1e-12
     with pytest.raises(ap.StudyError, match="no trajectories"):
         salib.analyze.morris.analyze(problem, np.random.default_rng(0).random(points.shape), outputs)
+
+
+def test_a_code_among_outputs_that_all_differ_is_warned_of():
+    problem = {"num_vars": 3, "names": ["a", "b", "c"], "bounds": [[0, 1]] * 3}
+    x = salib.sample.sobol.sample(problem, 512, calc_second_order=False, seed=1)
+    y = 3 * x[:, 0] + x[:, 1] + 10
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        salib.analyze.sobol.analyze(problem, y, calc_second_order=False)
+    y[np.random.default_rng(1).choice(len(y), 50, replace=False)] = -99
+    with pytest.warns(ap.SensitivityWarning, match=r"-99\.0 occurs in 50 of 2560 rows"):
+        salib.analyze.sobol.analyze(problem, y, calc_second_order=False)

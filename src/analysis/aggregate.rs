@@ -63,11 +63,11 @@ impl AggregateIndices {
     /// of the numerators over the sum of the variances, each with its influences. The outputs are those that vary;
     /// unless every one of them has a surrogate, the plain ones stay.
     #[must_use]
-    pub fn corrected(mut self, surrogates: &[&SurrogateEstimates]) -> Self {
+    pub fn corrected(mut self, surrogates: &[&SurrogateEstimates], scaling: Scaling) -> Self {
         if surrogates.iter().any(|of_output| of_output.refusal().is_some()) {
             return self;
         }
-        let Some(corrected) = by_surrogates(surrogates) else { return self };
+        let Some(corrected) = by_surrogates(surrogates, scaling) else { return self };
         let is_doubted = surrogates.iter().any(|of_output| of_output.is_heavy_tailed || of_output.misses_levels);
         let first_order: Vec<&EstimateWithInfluences> = corrected.iter().map(|of| &of.first_order).collect();
         let total: Vec<&EstimateWithInfluences> = corrected.iter().map(|of| &of.total).collect();
@@ -102,8 +102,11 @@ fn squared_width(estimate: Estimate) -> f64 {
     estimate.interval.map_or(f64::INFINITY, Interval::width).powi(2)
 }
 
-/// Computes first-order and total indices of all outputs together, each weighted by its variance.
-fn by_surrogates(surrogates: &[&SurrogateEstimates]) -> Option<Vec<IndexPair<EstimateWithInfluences>>> {
+/// Computes first-order and total indices of all outputs together, each weighted by its variance in this scaling.
+fn by_surrogates(
+    surrogates: &[&SurrogateEstimates],
+    scaling: Scaling,
+) -> Option<Vec<IndexPair<EstimateWithInfluences>>> {
     let first = surrogates.first()?;
     let effects = first.effects.len();
     let fits = |of: &&SurrogateEstimates| {
@@ -113,8 +116,8 @@ fn by_surrogates(surrogates: &[&SurrogateEstimates]) -> Option<Vec<IndexPair<Est
         return None;
     }
     let together = (0..effects).map(|at| IndexPair {
-        first_order: weighted(surrogates, |of| &of.effects[at].first_order),
-        total: weighted(surrogates, |of| &of.effects[at].total),
+        first_order: weighted(surrogates, scaling, |of| &of.effects[at].first_order),
+        total: weighted(surrogates, scaling, |of| &of.effects[at].total),
     });
     Some(together.collect())
 }
@@ -124,20 +127,25 @@ fn shape(of: &SurrogateEstimates) -> [Vec<usize>; 2] {
     [&of.variance.parts, &of.variance.low].map(|parts| parts.iter().map(Vec::len).collect())
 }
 
-/// Returns the mean of the indices `of` each output, weighted by the variances of the outputs.
+/// Returns the mean of the indices `of` each output, weighted by the variances of the outputs, which are 1 if
+/// standardised.
 fn weighted(
     surrogates: &[&SurrogateEstimates],
+    scaling: Scaling,
     of: impl Fn(&SurrogateEstimates) -> &EstimateWithInfluences,
 ) -> EstimateWithInfluences {
     // Relative to the largest, as in `aggregated`.
-    let largest = surrogates.iter().map(|of| of.variance.estimate).fold(0.0, f64::max);
-    let all: f64 = surrogates.iter().map(|of| of.variance.estimate / largest).sum();
-    let weights: Vec<f64> = surrogates.iter().map(|output| output.variance.estimate / largest / all).collect();
+    let variance = |of: &&SurrogateEstimates| if scaling == Scaling::Plain { of.variance.estimate } else { 1.0 };
+    let largest = surrogates.iter().map(variance).fold(0.0, f64::max);
+    let all: f64 = surrogates.iter().map(|of| variance(of) / largest).sum();
+    let weights: Vec<f64> = surrogates.iter().map(|of| variance(of) / largest / all).collect();
     let estimate: f64 = surrogates.iter().zip(&weights).map(|(output, weight)| weight * of(output).estimate).sum();
     let mut terms = Vec::with_capacity(2 * surrogates.len());
     for (output, weight) in surrogates.iter().zip(weights) {
         terms.push((weight, of(output)));
-        terms.push(((of(output).estimate - estimate) / largest / all, &output.variance));
+        if scaling == Scaling::Plain {
+            terms.push(((of(output).estimate - estimate) / largest / all, &output.variance));
+        }
     }
     EstimateWithInfluences::linear(estimate, &terms)
 }

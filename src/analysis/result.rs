@@ -52,7 +52,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<StopReason>) -> Stud
             .collect(),
         validity: ValidityRecord::of_flags(model.flags().iter().zip(counts.flags.iter().copied()), design.rows()),
         effort: effort(model, &counts),
-        aggregate: aggregate(run, &corrected),
+        aggregate: aggregate(run, &counts, &corrected),
         series,
         stopping: stopped.map(|reason| stopping(study, reason)),
         spending: None,
@@ -115,7 +115,7 @@ fn name_of(file: &Path) -> String {
 }
 
 /// Aggregates all outputs if the study requests it, otherwise those that belong to no series, if there are many.
-fn aggregate(run: &FinishedRun<'_>, corrected: &Corrections) -> Option<AggregateRecord> {
+fn aggregate(run: &FinishedRun<'_>, counts: &Totals, corrected: &Corrections) -> Option<AggregateRecord> {
     let FinishedRun { study, model, .. } = *run;
     let (outputs, single) = (model.outputs(), single_outputs(model));
     let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
@@ -125,7 +125,7 @@ fn aggregate(run: &FinishedRun<'_>, corrected: &Corrections) -> Option<Aggregate
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
     let weighting = if same_unit { Scaling::Plain } else { Scaling::Standardised };
     let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
-    let indices = together(run, corrected, places.into_iter(), weighting);
+    let indices = together(run, counts, corrected, places.into_iter(), weighting);
     Some(AggregateRecord {
         outputs: names,
         weighting,

@@ -17,15 +17,7 @@ use crate::uncertainty::Estimate;
 pub(super) fn series(run: &FinishedRun<'_>, counts: &Totals, corrections: &Corrections) -> Vec<SeriesRecord> {
     let mut records = Vec::new();
     for series in run.model.series() {
-        let plain = together(run, corrections, series.places(), Scaling::Plain);
-        let varying =
-            series.places().filter(|place| counts.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
-        let corrected: Option<Vec<&SurrogateEstimates>> =
-            varying.map(|place| corrections.of_run.get(place)?.as_ref()).collect();
-        let all = match corrected {
-            Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
-            None => plain,
-        };
+        let all = together(run, counts, corrections, series.places(), Scaling::Plain);
         records.push(SeriesRecord {
             name: series.name.clone(),
             unit: run.model.outputs()[series.first].unit.to_string(),
@@ -40,19 +32,27 @@ pub(super) fn series(run: &FinishedRun<'_>, counts: &Totals, corrections: &Corre
     records
 }
 
-/// Computes joint indices of the outputs at `places`.
+/// Computes joint indices of the outputs at `places`, corrected by surrogates where all outputs that vary have one.
 pub(super) fn together(
     run: &FinishedRun<'_>,
+    counts: &Totals,
     corrections: &Corrections,
-    places: impl Iterator<Item = usize>,
+    places: impl Iterator<Item = usize> + Clone,
     scaling: Scaling,
 ) -> Result<AggregateIndices, Undefined> {
     if let Some(plain) = &corrections.plain {
         return plain.together(run.study, run.model, places, scaling);
     }
-    let parts: Vec<Vec<&MomentParts>> =
-        places.map(|place| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect()).collect();
-    aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)
+    let moments = |place: usize| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
+    let parts: Vec<Vec<&MomentParts>> = places.clone().map(moments).collect();
+    let plain = aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)?;
+    let varying = places.filter(|place| counts.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
+    let surrogates: Option<Vec<&SurrogateEstimates>> =
+        varying.map(|place| corrections.of_run.get(place)?.as_ref()).collect();
+    Ok(match surrogates {
+        Some(surrogates) => plain.corrected(&surrogates, scaling),
+        None => plain,
+    })
 }
 
 /// Returns the indices over several outputs together of the effects that are wanted.

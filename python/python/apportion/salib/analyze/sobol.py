@@ -73,9 +73,9 @@ def analyze(
     step = (2 if calc_second_order else 1) * d + 2
     if X is None and (y.size < 2 * step or y.size % step):
         raise _engine.StudyError(f"{y.size} outputs: expected a multiple of {step}, at least {2 * step}")
-    if unlikely := _engine.unlikely(y):
-        warn(unlikely)
     rows = y.reshape(-1, step) if X is None else rows_of(members_of(problem), list(problem["names"]), X, y, calc_second_order)
+    if unlikely := _engine.unlikely(y, rows[:, [0, -1]].ravel()):
+        warn(unlikely)
     n, rows = len(rows), rows[np.isfinite(rows).all(axis=1)]
     if len(rows) < n:
         warn(f"{n - len(rows)} of {n} base points have outputs that are not finite, and are left out")
