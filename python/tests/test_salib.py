@@ -1,6 +1,7 @@
 import importlib
 import io
 import pickle
+import warnings
 from contextlib import redirect_stdout
 from pathlib import Path
 
