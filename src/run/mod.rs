@@ -86,7 +86,7 @@ pub struct Progress {
 }
 
 /// Maximum memory for kept outputs, in bytes: 8 GiB.
-pub(crate) const MAX_STORED_BYTES: u64 = 8 << 30;
+pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Records a block of evaluated rows, before its rows count as done; does nothing while the journal is not open.
 pub(crate) fn record(journal: &OnceLock<Journal>, block: &RowBlock) -> Result<(), RunError> {

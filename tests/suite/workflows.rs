@@ -20,6 +20,22 @@ fn check_writes_nothing_and_run_writes_its_files() {
 }
 
 #[test]
+fn check_announces_no_journal_that_a_run_would_not_keep() {
+    let study = study_path("ishigami");
+    let disk = |base_samples: u64| {
+        let setting = format!("design.base_samples={base_samples}");
+        let printed = succeed(&["check", text(&study), "--set", &setting]);
+        printed.lines().find(|line| line.starts_with("disk: ")).unwrap().to_owned()
+    };
+    // Five runs for each base sample, of one output of eight bytes.
+    let largest = (8 << 30) / 40 / 256 * 256;
+    assert!(disk(largest).contains("ishigami.journal"));
+    let none = disk(largest + 256);
+    assert!(!none.contains("ishigami.journal"));
+    messages!().add("disk", &none);
+}
+
+#[test]
 fn a_result_reads_back_as_it_was_and_carries_its_study() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("coulomb-general");

@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::design::Design;
 use apportion::estimate::{FirstOrder, Total};
 use apportion::model::RunContext;
-use apportion::run::{FailurePolicy, Pilot};
+use apportion::run::{FailurePolicy, MAX_STORED_BYTES, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, IndicesOf};
 use apportion::study::{Study, Target};
@@ -163,7 +163,10 @@ fn past_runs(study: &Study, folder: &Path) -> String {
     let megabytes = total as f64 * study.model().outputs().len() as f64 * 8e-6;
     let (size, path_text) = (two_digits(megabytes.max(0.01)), path.display());
     let when = if study.model().is_slow() { "" } else { ", if the run takes longer than 10 s" };
-    let mut text = format!("disk: about {size} MB for the journal {path_text}{when}\n");
+    let mut text = match 1e6 * megabytes > MAX_STORED_BYTES as f64 {
+        true => format!("disk: no journal, which would take about {size} MB: the run cannot be resumed\n"),
+        false => format!("disk: about {size} MB for the journal {path_text}{when}\n"),
+    };
     if path.exists() {
         text.push_str(&match study.runner().journal(&path).recorded_runs() {
             Ok(rows) => format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total)),
