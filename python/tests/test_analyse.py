@@ -345,6 +345,10 @@ def test_models_of_the_engine_and_everything_that_can_be_asked(cube):
     accurate = ap.analyse(ishigami, cube, accuracy=0.01)
     assert accurate.to_dict()["stopping"]["target_met"] is True
     near(accurate.total, TOTAL, 0.02)
+    # Plain rows come first, as for a program: pick-freeze designs take several hundred runs.
+    calls = []
+    sparing = ap.analyse(lambda a, b: calls.append(a) or a + 2 * b, {"a": (0, 1), "b": (0, 1)}, accuracy=0.02, vectorised=False)
+    assert sparing.runs <= 64 and len(calls) <= 80 and abs(sparing.total["b"].estimate - 0.8) < 1e-6
 
 
 def test_screening_sweeps_and_given_data(cube):

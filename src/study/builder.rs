@@ -206,7 +206,8 @@ impl StudyBuilder {
         let settings = DesignSettings { sampler, base_samples: 0, replicates, seed: self.seed };
         let has_cheaper =
             !self.low_fidelities.is_empty() || length.target.accuracy.is_some() && !self.subject.cheaper().is_empty();
-        let first_rows = (!has_cheaper).then(|| length.target.needed_values(model.is_slow()));
+        let is_slow = model.is_slow() || self.subject.is_external();
+        let first_rows = (!has_cheaper).then(|| length.target.needed_values(is_slow));
         let design = length.design(&analysis, &space, outputs, settings, first_rows)?;
         let design = length.target.within_max_runs(design).or_else(|min_runs| {
             let expected = format!("{min_runs} or more, for 2 base samples in each of {replicates} replicates");

@@ -100,8 +100,10 @@ impl Study {
         if outputs != expected {
             return rules::wrong("outputs", format!("those of the study, {expected}"), outputs);
         }
+        // The design is that of a model outside, which may be slow.
+        let smallest_region = self.target.accuracy.map(|_| self.target.region(true));
         let subject = CustomSubject { model, version: Some(version.to_owned()) };
-        Ok(Self { subject: Arc::new(subject), ..self })
+        Ok(Self { subject: Arc::new(subject), target: Target { smallest_region, ..self.target }, ..self })
     }
 
     /// Returns its name, by default that of the file without its ending. Result files are named after it.
@@ -247,7 +249,7 @@ impl Study {
     /// Returns the number of distinct values of every factor that a run with an accuracy needs, so that a region of the
     /// smallest size contains one with 95 % probability.
     pub(crate) fn needed_values(&self) -> u64 {
-        self.target.needed_values(self.model().is_slow())
+        self.target.needed_values(self.model().is_slow() || self.subject.is_external())
     }
 
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.

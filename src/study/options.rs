@@ -172,7 +172,7 @@ pub struct Target {
     pub max_runs: Option<u64>,
     /// The smallest part of a factor's range, from 0 to 1, that must not escape: an accuracy is reached only if every
     /// factor has so many distinct values that a region of this size contains one, with 95 % probability. `None` for
-    /// 0.05 where the model takes its time, and 0.001 where it does not.
+    /// 0.05 where the model takes its time or is outside, and 0.001 where it does not.
     pub smallest_region: Option<f64>,
 }
 
@@ -208,8 +208,12 @@ impl Target {
     /// Returns the number of distinct values of every factor that an accuracy needs, so that a region of the smallest size
     /// contains one with 95 % probability.
     pub(crate) fn needed_values(&self, is_slow: bool) -> u64 {
-        let region = self.smallest_region.unwrap_or(if is_slow { SLOW_REGION } else { QUICK_REGION });
-        (RULE_OF_THREE / region).ceil() as u64
+        (RULE_OF_THREE / self.region(is_slow)).ceil() as u64
+    }
+
+    /// Returns the smallest region, by default that of a model that `is_slow` or not.
+    pub(crate) fn region(&self, is_slow: bool) -> f64 {
+        self.smallest_region.unwrap_or(if is_slow { SLOW_REGION } else { QUICK_REGION })
     }
 
     /// Returns the default number of base samples with which a run with `replicates` starts.
