@@ -249,7 +249,7 @@ const QUICK_REGION: f64 = 0.001;
 const FIRST_STAGE: u64 = 1 << 10;
 
 /// Base points of each replicate with which a run with a time limit starts.
-const FIRST_POINTS: u64 = 64;
+const FIRST_POINTS: u64 = 8;
 
 /// The same for a run with a target accuracy.
 const FIRST_TRIAL_POINTS: u64 = 4;

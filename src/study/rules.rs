@@ -284,7 +284,7 @@ impl Length {
             let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * varying as u64);
             if runs < fewest {
                 let expected =
-                    format!("{fewest} or more: fewer tell only which factors have no effect (`apportion screen`)");
+                    format!("{fewest} or more: fewer tell only which factors have no effect (a screening)");
                 return wrong("runs", expected, runs);
             }
             return Ok(smallest.plain(runs)?);
