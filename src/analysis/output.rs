@@ -10,8 +10,9 @@ use super::scatter::scatter_record;
 use super::stages::stages;
 use super::surrogates::{Corrections, interval_options};
 use super::{unlikely, warnings};
+use crate::effect::IndexPair;
 use crate::estimate::{CentralMoments, MomentParts, Moments, Undefined, merged};
-use crate::model::{Output, RowFailure};
+use crate::model::{Model, Output, RowFailure};
 use crate::result::{FailureCount, OutputDistribution, OutputResult, ScatterRecord, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
@@ -53,6 +54,9 @@ pub(super) fn output_result(
         (false, Some(plain)) => plain.indices(study, run.model, number, true),
         (false, None) => output_indices(&parts, &layout, &options),
     };
+    if let Ok(indices) = &mut indices {
+        set_everything(indices, study, run.model, number);
+    }
     let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
     let of_plain = corrected.plain.as_ref().and_then(|plain| plain.moments(number, run.replicates));
@@ -100,6 +104,23 @@ pub(super) fn output_result(
         }
     }
     result
+}
+
+/// Sets the indices of what is everything that changes the output, such as a factor alone: they are exactly 1.
+fn set_everything(indices: &mut OutputIndices, study: &Study, model: &dyn Model, number: usize) {
+    let one = Estimate::exact(1.0);
+    for (effect, of) in study.effects().iter().zip(&mut indices.effects) {
+        if !study.is_everything(effect, model, number) {
+            continue;
+        }
+        let estimates = &mut of.estimates;
+        (estimates.first_order, estimates.total) = (one, one);
+        estimates.interaction = estimates.interaction.map(|_| Estimate::exact(0.0));
+        estimates.shapley = estimates.shapley.map(|_| one);
+        if effect.effect.is_input() {
+            indices.sums = IndexPair { first_order: one, total: one };
+        }
+    }
 }
 
 /// Returns whether the indices at the stages of `run` are computed.

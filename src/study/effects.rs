@@ -52,4 +52,13 @@ impl Study {
         }
         unread
     }
+
+    /// Returns whether `effect` certainly is everything that output number `output` of `model` depends on.
+    pub(crate) fn is_everything(&self, effect: &StudyEffect, model: &dyn Model, output: usize) -> bool {
+        let is_independent = self.space.copula().is_none();
+        self.space.factors().iter().enumerate().all(|(number, factor)| {
+            let is_unread = factor.is_constant() || is_independent && !model.reads(output, number);
+            is_unread || effect.factors.contains(&number)
+        })
+    }
 }

@@ -173,9 +173,9 @@ impl OrthogonalPolynomials {
         x
     }
 
-    /// Returns whether it is of counts without a bound, of which the rarest are not among its levels.
+    /// Returns whether it is of counts, of which the rarest are not among its levels.
     pub fn is_count(&self) -> bool {
-        matches!(self.distribution, Distribution::Poisson(_)) && self.has_levels()
+        self.distribution.counts().is_some() && self.has_levels()
     }
 }
 

@@ -119,6 +119,11 @@ impl Estimate {
         Estimate { estimate, interval }
     }
 
+    /// Returns a number without error.
+    pub(crate) fn exact(estimate: f64) -> Self {
+        Self { estimate, interval: Some(Interval::about(estimate, 0.0)) }
+    }
+
     /// Returns a number of unknown error.
     pub fn alone(estimate: f64) -> Self {
         Self { estimate, interval: None }

@@ -151,18 +151,18 @@ class Exact:
         return self.exact_std
 
 
-class Poisson:
+class Counts:
     """Of SciPy, from above where its distribution function rounds to 1."""
 
-    def __init__(self, mean):
-        self.law = stats.poisson(mean)
+    def __init__(self, law):
+        self.law = law
         self.mean, self.std = self.law.mean, self.law.std
 
     def ppf(self, us):
         return [self.law.ppf(u) if u < 0.5 else self.from_above(1 - u) for u in us]
 
     def from_above(self, v):
-        k = max(0, int(self.law.isf(v)) - 5)
+        k = max(int(self.law.support()[0]), int(self.law.isf(v)) - 5)
         while self.law.sf(k) >= v:
             k += 1
         return k
@@ -385,7 +385,14 @@ CASES = [
 ] + [
     ("pareto", dict(shape=b, min=s), stats.pareto(b, scale=s)) for b, s in [(2.5, 1), (3, 1e-6), (40, 7)]
 ] + [
-    ("poisson", dict(mean=m), Poisson(m)) for m in [1e-3, 0.7, 4, 36.5, 1000, 250000]
+    ("poisson", dict(mean=m), Counts(stats.poisson(m))) for m in [1e-3, 0.7, 4, 36.5, 1000, 250000]
+] + [
+    ("binomial", dict(n=n, p=p), Counts(stats.binom(n, p))) for n, p in [(1, 0.3), (10, 0.25), (1000, 0.9), (1e6, 2e-6)]
+] + [
+    ("negative-binomial", dict(n=n, p=p), Counts(stats.nbinom(n, p)))
+    for n, p in [(1, 0.5), (2.5, 0.25), (0.1, 0.01), (400, 0.75)]
+] + [
+    ("geometric", dict(p=p), Counts(stats.geom(p))) for p in [0.002, 0.25, 0.75]
 ] + [
     ("histogram", dict(edges=edges, weights=weights), Histogram(edges, weights))
     for edges, weights in [

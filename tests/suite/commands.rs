@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 use apportion_files::{ModelKind, TemplateRequest, template};
 
-use crate::common::{apportion, contents, stderr, study_path, succeed, text};
+use crate::common::{Folder, apportion, contents, stderr, study_path, succeed, text};
 use crate::messages::messages;
 
 fn run(study: &str, folder: &Path, changes: &[&str]) {
@@ -191,6 +192,61 @@ fn a_new_study_runs_as_it_is() {
 }
 
 #[test]
+fn a_problem_of_another_tool_becomes_a_study() {
+    let (folder, mut messages) = (Folder::new(), messages!());
+    let study = folder.path("study.toml");
+    let factors = |name: &str, content: &str| {
+        succeed(&["new", text(&study), "--force", "--problem", text(&folder.with(name, content))]);
+        let study = apportion_files::load_study(&study, &[]).unwrap();
+        assert_eq!((study.subject().name(), study.notes().len()), ("external", 0));
+        study.space().factors().to_vec()
+    };
+    let of_group = |factor: &Factor| factor.group.clone().unwrap_or_default();
+    let plain = factors("a.txt", "# name low high\nP1 0.0 1.0\n\nP2\t-5e-1   2\n");
+    assert_eq!(plain[1].distribution(), &Distribution::uniform(-0.5, 2.0).unwrap());
+    let full = factors("b.txt", "P1,0,1,G,unif\nP2,3,0.5,G,norm\nsome name,1,2,NA,logunif\nP4,0,1,alone\n");
+    assert_eq!(full.iter().map(of_group).collect::<Vec<_>>(), ["G", "G", "", "alone"]);
+    assert_eq!(full[1].distribution(), &Distribution::normal(3.0, 0.5).unwrap());
+    assert_eq!((&*full[2].name, full[2].distribution()), ("some name", &Distribution::log_uniform(1.0, 2.0).unwrap()));
+    let json = r#"{"num_vars": 3, "names": ["a", "b", "c"], "groups": ["g", "g", "h"],
+        "bounds": [[0, 10, 0.2], [1, 4, 2, 0.5], [0.5, 0.25]], "dists": ["triang", "truncnorm", "lognorm"]}"#;
+    let json = factors("c.json", json);
+    assert_eq!(json.iter().map(of_group).collect::<Vec<_>>(), ["g", "g", "h"]);
+    let expected = [
+        Distribution::triangular(0.0, 2.0, 10.0),
+        Distribution::truncated_normal(2.0, 0.5, 1.0, 4.0),
+        Distribution::log_normal_of_logs(0.5, 0.25),
+    ];
+    for (factor, expected) in json.iter().zip(expected) {
+        assert_eq!(factor.distribution(), &expected.unwrap());
+    }
+    let csv = factors("d.csv", "Unit;Max;Min;Parameter\nEUR/kWh;3;1;price\n;2;1;\"k;1\"\n");
+    assert_eq!((csv[0].unit().symbol(), csv[0].distribution().support()), ("EUR/kWh", (1.0, 3.0)));
+    assert_eq!((csv[1].unit().symbol(), &*csv[1].name), ("1", "k;1"));
+    for (number, content) in [
+        "",
+        "P1 0 high",
+        "P1 0",
+        "P1 3 1",
+        "P1 0 1 G gamma",
+        "P1 0 1 G triang",
+        "name,min,max,baseline\nP1,0,1,0.5",
+        "{'names': ['a']}",
+        r#"{"names": ["a", "b"], "bounds": [[0, 1]]}"#,
+        "P1 0 1\nP1 0 2",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let problem = folder.with(&format!("wrong{number}"), content);
+        messages.refused(&["new", text(&folder.path("other.toml")), "--problem", text(&problem)]);
+    }
+    let problem = folder.with("e.txt", "P1 0 1\n");
+    messages.refused(&["new", text(&folder.path("other.toml")), "--model", "ishigami", "--problem", text(&problem)]);
+    assert!(!folder.path("other.toml").exists());
+}
+
+#[test]
 fn new_overwrites_no_file_and_names_unknown_inputs() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("study.toml");
@@ -228,7 +284,7 @@ fn studied(request: &TemplateRequest) -> Study {
 }
 
 fn request(model: ModelKind) -> TemplateRequest {
-    TemplateRequest { model, title: None, factors: Vec::new(), outputs: Vec::new() }
+    TemplateRequest { model, title: None, factors: Vec::new(), tables: Vec::new(), outputs: Vec::new() }
 }
 
 #[test]

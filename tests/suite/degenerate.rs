@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use apportion::result::{OutputResult, StudyResult, Warning, parse_result};
+use apportion::uncertainty::{Estimate, Interval};
 
 use crate::common::HOLES;
 use crate::messages::messages;
@@ -51,11 +52,33 @@ fn failures_by_several_factors_are_distinguished_from_those_by_one() {
 fn one_factor_is_everything_for_two_runs_a_base_sample() {
     let result = analysed("model = \"linear\"\n[[factor]]\nname = \"x1\"\n[analysis]\nsecond_order = true");
     assert_eq!(result.provenance.model_runs, 2 * result.provenance.base_samples);
-    let [(first, total)] = first_and_total(&result.outputs[0])[..] else { panic!("one factor") };
-    // The covariance of the columns A and B of a net of 2^12 points, which an exact 1 would need to be 0.
-    assert!((first - 1.0).abs() < 1e-3 && (total - 1.0).abs() < 1e-3, "{first} {total}");
+    let whole = &result.outputs[0].indices.as_ref().unwrap()[0].effect;
+    let exact = Estimate { estimate: 1.0, interval: Some(Interval { low: 1.0, high: 1.0 }) };
+    assert_eq!((whole.first_order, whole.total, result.outputs[0].sum_total), (exact, exact, Some(exact)));
     assert_eq!(result.outputs[0].second_order.as_ref().unwrap().len(), 0);
     assert_eq!(result.outputs[0].indices.as_ref().unwrap()[0].effect.probability_first, Some(1.0));
+}
+
+#[test]
+fn all_factors_together_are_everything() {
+    let text = "model = \"ishigami\"\n[design]\nbase_samples = 64\n\
+                [analysis]\nsubsets = [[\"x1\", \"x2\"], [\"x1\", \"x2\", \"x3\"]]";
+    let result = analysed(text);
+    let [part, all] = &result.outputs[0].subsets.as_ref().unwrap()[..] else { panic!("two subsets") };
+    assert_eq!((all.effect.first_order.estimate, all.effect.total.estimate), (1.0, 1.0));
+    assert_eq!(all.effect.total.interval, Some(Interval { low: 1.0, high: 1.0 }));
+    assert!(part.effect.first_order.estimate < 0.9);
+    // A formula that reads one of two factors: all of the variance is its own, unless the other one tells of it.
+    let text =
+        "model = \"expression\"\noutputs.y = \"x\"\n[factors]\nx = { min = 0, max = 1 }\nz = { min = 0, max = 1 }\n";
+    assert_eq!(first_and_total(&analysed(text).outputs[0]), [(1.0, 1.0), (0.0, 0.0)]);
+    let dependent =
+        "[[dependence]]\nfactors = [\"x\", \"z\"]\ncorrelation = 0.8\n[analysis]\nsubsets = [[\"x\", \"z\"]]";
+    let result = analysed(&format!("{text}{dependent}"));
+    let (_, total) = first_and_total(&result.outputs[0])[0];
+    // Of uniform factors a little above 1 - 0.8^2.
+    assert!((total - 0.36).abs() < 0.05, "{total}");
+    assert_eq!(result.outputs[0].subsets.as_ref().unwrap()[0].effect.total.estimate, 1.0);
 }
 
 #[test]

@@ -28,6 +28,9 @@ fn from_json(case: &Value) -> Distribution {
         "gamma" => Distribution::gamma(p("shape"), p("scale"), p("location")),
         "exponential" => Distribution::exponential(p("scale"), p("location")),
         "poisson" => Distribution::poisson(p("mean")),
+        "binomial" => Distribution::binomial(p("n"), p("p")),
+        "negative-binomial" => Distribution::negative_binomial(p("n"), p("p")),
+        "geometric" => Distribution::geometric(p("p")),
         // With 1 degree of freedom there is no variance without truncation.
         "student-t" if p("df") == 1.0 => return truncated_cauchy(case),
         "student-t" => Distribution::student_t(p("df"), p("location"), p("scale")),
@@ -308,7 +311,7 @@ const LOG_UNIFORM_MOMENTS: [(f64, f64, f64, f64); 6] = [
 
 /// A distribution of each continuous family over wide ranges of its parameters.
 fn any_distribution() -> impl Strategy<Value = Distribution> {
-    let family = 0usize..20;
+    let family = 0usize..23;
     let decades = |low: f64, high: f64| (low..high).prop_map(|decade: f64| 10f64.powf(decade));
     (family, -1e3..1e3f64, decades(-3.0, 3.0), decades(-2.0, 4.0), 0.0..1.0f64).prop_filter_map(
         "accepted",
@@ -329,6 +332,9 @@ fn any_distribution() -> impl Strategy<Value = Distribution> {
                 10 => Distribution::gamma(shape, scale, location),
                 11 => Distribution::exponential(scale, location),
                 12 => Distribution::poisson(shape),
+                20 => Distribution::binomial(shape.ceil(), part),
+                21 => Distribution::negative_binomial(shape, part),
+                22 => Distribution::geometric(part),
                 13 => Distribution::student_t(2.0 + shape, location, scale),
                 14 => Distribution::logistic(location, scale),
                 15 => Distribution::pareto(2.0 + shape, scale),

@@ -243,8 +243,52 @@ fn invalid_parameters_of_families_are_refused_with_their_place() {
         ("\"1\" = 5", "\"0.9\" = 5", "33:13"),
         ("edges = [0, 1, 3]", "edges = [0, 1, 1]", "36:9"),
         ("\"poisson\"", "\"pois\"", "15:16"),
+        // The distribution before its keys.
+        ("\"poisson\"\nmean = 4", "\"zipf\"\nexponent = 2", "15:16"),
+        ("\"poisson\"\nmean = 4", "\"binomial\"\nn = 4.5\np = 0.5", "16:5"),
+        // What is constant, and what is negative.
+        ("\"poisson\"\nmean = 4", "\"log-normal\"\nmedian = 4\ngsd = 1", "17:7"),
+        ("\"poisson\"\nmean = 4", "\"log-normal\"\nlog_mean = 4\nlog_sd = 0", "17:10"),
+        ("\"poisson\"\nmean = 4", "\"log-normal\"\nmedian = -4\ngsd = 2", "16:10"),
+        ("\"poisson\"\nmean = 4", "\"log-normal\"\np05 = -4\np95 = -2", "16:7"),
         ("truncate = [-inf, 0]", "max = \"g\"", "42:7"),
         ("truncate = [-inf, 0]", "truncate = [0, \"g\"]", "42:16"),
     ];
     messages!().spoilt(&Folder::new(), FAMILIES, &changes);
+}
+
+/// Names of one's own for units, and the ways to give a distribution in which people of life-cycle assessment think.
+#[test]
+fn factors_of_own_models_take_any_unit() {
+    let folder = Folder::new();
+    let study = folder.with(
+        "study.toml",
+        "model = 'expression'\noutputs.y = 'price + amount + defects + length'\n[factors]\n\
+         price = { min = 1, max = 3, unit = 'EUR/kWh' }\n\
+         amount = { distribution = 'log-normal', median = 2, gsd = 1.5, unit = 'kg CO2-eq' }\n\
+         defects = { distribution = 'binomial', n = 10, p = 0.25 }\n\
+         length = { min = 1, max = 3, unit = 'um' }\n",
+    );
+    let out = folder.path("out");
+    succeed(&["run", text(&study), "--out", text(&out)]);
+    let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
+    let unit = |factor: usize| result["factors"][factor]["unit"].clone();
+    assert_eq!([0, 1, 3].map(unit), ["EUR/kWh", "kg CO2-eq", "um"]);
+    let log_sd = result["factors"][1]["distribution"]["log_sd"].as_f64().unwrap();
+    assert!((log_sd - 1.5f64.ln()).abs() < 1e-15, "{log_sd}");
+    // Variances 1/3, 4 exp(s^2) (exp(s^2) - 1) and 10/4 3/4; the length counts in metres.
+    let square = (log_sd * log_sd).exp();
+    let parts = [1.0 / 3.0, 4.0 * square * (square - 1.0), 1.875, 0.0];
+    for (factor, part) in result["outputs"][0]["indices"].as_array().unwrap().iter().zip(parts) {
+        let first = factor["first_order"]["estimate"].as_f64().unwrap();
+        assert!((first - part / parts.iter().sum::<f64>()).abs() < 0.02, "{factor}");
+    }
+    let long = folder.with(
+        "long.toml",
+        format!(
+            "model = 'expression'\noutputs.y = 'x'\n[factors]\nx = {{ min = 0, max = 1, unit = '{}' }}\n",
+            "m".repeat(61)
+        ),
+    );
+    messages!().refused(&["check", text(&long)]);
 }

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use apportion::given::Measure;
+use apportion_base::digest::sha256;
 use apportion_report::given::GivenFile;
 use apportion_report::screening::ScreeningFile;
 
-use crate::common::{apportion, stderr, stdout, text};
+use crate::common::{Folder, apportion, stderr, stdout, text};
 use crate::messages::{Messages, messages};
 use crate::points::{Columns, random, saltelli, shuffled, sobol, trajectories};
 
@@ -202,6 +203,45 @@ fn a_number_of_the_run_is_no_input() {
     }
     let only: String = (0..50).map(|k| format!("{},{}\n", k * 7 % 50, k % 13)).collect();
     Run::of(&format!("run,y\n{only}"), &["--outputs", "y"]).refused(&mut messages, "nothing else");
+}
+
+#[test]
+fn outputs_may_be_in_a_file_of_their_own() {
+    let content = table(&random(2, 100, 2));
+    let together = Run::of(&content, &["--outputs", "y"]).result();
+    let folder = Folder::new();
+    let lines = content.lines().map(|line| line.rsplit_once(',').unwrap()).enumerate();
+    let (inputs, outputs): (Vec<String>, Vec<String>) = lines
+        .map(|(k, (x, y))| match k {
+            0 => (format!(",{x}\n"), format!(",{y},other\n")),
+            k => (format!("{k},{x}\n"), format!("{k},{y},text\n")),
+        })
+        .unzip();
+    let file = folder.with("y.csv", outputs.concat());
+    let apart = Run::of(&inputs.concat(), &["--outputs", "y", "--outputs-from", text(&file)]);
+    let result = apart.result();
+    assert_eq!((result.inputs, result.outputs), (together.inputs.clone(), together.outputs.clone()));
+    let both = sha256((inputs.concat() + &outputs.concat()).as_bytes());
+    assert!(result.table.sha256 == both && result.table.file.ends_with("y.csv"), "{}", result.table.file);
+    // Without headers, as NumPy writes them.
+    let bare = |cells: &[String], from: usize, to: usize| -> String {
+        let cell = |line: &String| line.trim().split(',').skip(from).take(to - from).collect::<Vec<_>>().join(" ");
+        cells[1..].iter().map(|line| cell(line) + "\n").collect()
+    };
+    let file = folder.with("y.txt", bare(&outputs, 1, 2));
+    let names = ["--names", "x1,x2", "--outputs", "y", "--outputs-from", text(&file)];
+    assert_eq!(Run::of(&bare(&inputs, 1, 3), &names).result().outputs, together.outputs);
+    let mut messages = messages!();
+    for (case, outputs, output) in [
+        ("fewer rows", outputs[..90].concat(), "y"),
+        ("more rows", outputs.concat() + "101,1,text\n", "y"),
+        ("an input again", outputs.concat().replace("other", "x1"), "x1"),
+        ("no such output", outputs.concat(), "z"),
+    ] {
+        let file = folder.with("y.csv", outputs);
+        let run = Run::of(&inputs.concat(), &["--outputs", output, "--outputs-from", text(&file)]);
+        run.refused(&mut messages, case);
+    }
 }
 
 #[test]

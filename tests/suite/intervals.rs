@@ -62,10 +62,12 @@ fn a_factor_without_effect_has_an_interval_of_width_0() {
     let result = analysed("if(a+b > 1, 1, 0)", UNIFORM, "base_samples = 256\n[analysis]\nsecond_order = true");
     assert_eq!(bounds(&result, 2), [(0.0, 0.0, 0.0); 2]);
     // A half-plane of one factor is integrated exactly by every net; its indices are 1, which 256 rows do not prove.
-    let exact = analysed("if(a > 0.5, 1, 0)", UNIFORM, "base_samples = 256");
+    let exact = analysed("if(a + 0*b > 0.5, 1, 0)", UNIFORM, "base_samples = 256");
     let [(low, first, high), _] = bounds(&exact, 0);
     assert!((first - 1.0).abs() < 1e-9 && low < 0.999 && high > 1.001, "{low} {first} {high}");
-    assert_eq!(bounds(&exact, 1), [(0.0, 0.0, 0.0); 2]);
+    // The formula does: it reads no other factor.
+    let alone = analysed("if(a > 0.5, 1, 0)", UNIFORM, "base_samples = 256");
+    assert_eq!((bounds(&alone, 0), bounds(&alone, 1)), ([(1.0, 1.0, 1.0); 2], [(0.0, 0.0, 0.0); 2]));
 }
 
 #[test]

@@ -121,3 +121,17 @@ fn a_thousand_factors() {
     assert!(total.iter().all(|st| (0.2e-3..1.8e-3).contains(st)));
     assert!((total.iter().sum::<f64>() - 1.0).abs() < 0.05);
 }
+
+/// The answer of Sobol' G is that of factors from 0 to 1.
+#[test]
+fn exact_indices_hold_for_the_ranges_of_the_function() {
+    let notes = |range: &str| {
+        let text = format!("model = 'sobol-g'\n[factors]\nx1 = {{ {range} }}\nx2 = {{}}\n");
+        let study = apportion_files::parse_study(&text, Path::new("g.toml"), &[]).unwrap();
+        study.notes().to_vec()
+    };
+    assert!(notes("").is_empty() && notes("min = 0.25, max = 1").is_empty());
+    for range in ["min = -1, max = 1", "distribution = 'normal', mean = 0.5, sd = 0.1"] {
+        assert!(notes(range)[0].contains("exact indices"), "{range}");
+    }
+}

@@ -18,5 +18,5 @@ pub use command::{
 };
 pub use study::{
     Diagnostic, ExpressionSubject, Formula, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, load_study,
-    model_guide, new_program, parse_study, study_schema, template,
+    model_guide, new_program, parse_study, problem_factors, study_schema, template,
 };

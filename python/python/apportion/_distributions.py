@@ -118,12 +118,15 @@ def LogNormal(
     *,
     log_mean: float | None = None,
     log_sd: float | None = None,
+    median: float | None = None,
+    gsd: float | None = None,
     unit: str | None = None,
     group: str | None = None,
     nominal: Any = None,
 ) -> Factor:
-    """Log-normal: by mean and standard deviation of the factor, or by those of its natural logarithm."""
-    keys = {"mean": mean, "sd": sd, "log_mean": log_mean, "log_sd": log_sd}
+    """Log-normal: by mean and standard deviation of the factor, by those of its natural logarithm, or by median and geometric
+    standard deviation."""
+    keys = {"mean": mean, "sd": sd, "log_mean": log_mean, "log_sd": log_sd, "median": median, "gsd": gsd}
     return Factor({"distribution": "log-normal", **keys, "unit": unit, "group": group, "nominal": nominal})
 
 

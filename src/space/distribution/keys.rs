@@ -64,7 +64,7 @@ const fn quantile(name: &'static str, description: &'static str) -> Key {
 }
 
 /// All keys of distributions.
-pub static KEYS: [Key; 32] = {
+pub static KEYS: [Key; 36] = {
     use KeyKind::{Bounds, Number, Numbers, Quantiles, Text, Texts};
     use Measure::{Log, Pure, Span, Value};
     [
@@ -74,6 +74,8 @@ pub static KEYS: [Key; 32] = {
         key("sd", Number, Span, "Standard deviation, as the mean."),
         key("log_mean", Number, Log, "Mean of the natural logarithm, of a log-normal distribution."),
         key("log_sd", Number, Pure, "Standard deviation of the natural logarithm, of a log-normal distribution."),
+        key("median", Number, Value, "Median, of a log-normal distribution."),
+        key("gsd", Number, Pure, "Geometric standard deviation, above 1, of a log-normal distribution."),
         key("mode", Number, Value, "The most probable value."),
         key("alpha", Number, Pure, "First shape parameter of a beta distribution."),
         key("beta", Number, Pure, "Second shape parameter of a beta distribution."),
@@ -95,6 +97,13 @@ pub static KEYS: [Key; 32] = {
         quantile("p90", "Quantile: 90 % of the values lie below it."),
         quantile("p95", "Quantile: 95 % of the values lie below it."),
         quantile("p99", "Quantile: 99 % of the values lie below it."),
+        key(
+            "n",
+            Number,
+            Pure,
+            "Number of trials of a binomial distribution; of successes, of a negative binomial one.",
+        ),
+        key("p", Number, Pure, "Probability of success of a binomial, negative binomial or geometric distribution."),
         key("probability", Number, Pure, "Probability of true, of a boolean; 0.5 by default."),
         key("value", Number, Value, "The one value of a constant."),
         key("values", Numbers, Value, "The values of a discrete distribution, measured ones, or those of labels."),

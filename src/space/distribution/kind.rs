@@ -88,12 +88,26 @@ impl Kind {
         let given = Arguments { entry: self.0, values: parameters };
         let keys = self.key_set(&given)?;
         let made = match keys.is_solved {
-            true => solved(&given, keys.may.contains(&"location"))?,
-            false => (self.0.build)(&given)?,
+            true => solved(&given, keys.may.contains(&"location")),
+            false => (self.0.build)(&given),
         };
+        let made = made.map_err(|error| self.with_hint(error, &given))?;
         match given.get("truncate") {
             Some(Parameter::Bounds(min, max)) => made.truncated(*min, *max),
             _ => made.finite(),
+        }
+    }
+
+    /// Adds what to write instead of no spread, or of values below 0.
+    fn with_hint(self, error: DistributionError, given: &Arguments<'_>) -> DistributionError {
+        match error.key.and_then(|key| Some((key, given.number_if(key)?))) {
+            Some(("sd" | "log_sd", 0.0) | ("gsd", 1.0)) => {
+                error.with_help("for a fixed value, use the constant distribution".to_owned())
+            }
+            Some((key, value)) if self.0.of_ratios && value < 0.0 && !matches!(key, "sd" | "log_sd" | "shape") => {
+                error.with_help("for negative amounts, give their size here, and negate it in the formula".to_owned())
+            }
+            _ => error,
         }
     }
 

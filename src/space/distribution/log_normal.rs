@@ -76,13 +76,18 @@ impl Distribution {
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "log-normal",
     summary: "The logarithm is normal.",
-    key_sets: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), TWO_QUANTILES],
+    key_sets: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), keys(&["median", "gsd"]), TWO_QUANTILES],
     of_ratios: true,
     shape: Shape::Between(1e-9, 26.0, 500),
     make: |_, [_, median, log_sd]| Distribution::log_normal_of_logs(libm::log(median), log_sd),
-    build: |given| match given.number_if("log_mean") {
-        Some(log_mean) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
-        None => Distribution::log_normal(given.number("mean")?, given.number("sd")?),
+    build: |given| match (given.number_if("log_mean"), given.number_if("median")) {
+        (Some(log_mean), _) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
+        (None, Some(median)) => {
+            let gsd = given.number("gsd")?;
+            number("gsd", gsd, gsd > 1.0, "be greater than 1")?;
+            Distribution::log_normal_of_logs(libm::log(positive("median", median)?), libm::log(gsd))
+        }
+        (None, None) => Distribution::log_normal(given.number("mean")?, given.number("sd")?),
     },
     ..PLAIN
 }];

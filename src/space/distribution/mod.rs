@@ -10,6 +10,7 @@
 
 mod beta;
 mod constant;
+mod counts;
 mod entry;
 mod error;
 mod exponential;
@@ -27,7 +28,6 @@ mod normal;
 mod parameter;
 mod pareto;
 mod pert;
-mod poisson;
 mod quadrature;
 mod seed;
 mod solve;
@@ -113,7 +113,10 @@ families! {
     Gumbel(Gumbel) = gumbel::ENTRIES,
     Gamma(Gamma) = gamma::ENTRIES,
     Exponential(Exponential) = exponential::ENTRIES,
-    Poisson(Poisson) = poisson::ENTRIES,
+    Poisson(Counts) = counts::POISSON,
+    Binomial(Counts) = counts::BINOMIAL,
+    NegativeBinomial(Counts) = counts::NEGATIVE_BINOMIAL,
+    Geometric(Counts) = counts::GEOMETRIC,
     StudentT(StudentT) = student_t::ENTRIES,
     Logistic(Logistic) = logistic::ENTRIES,
     Pareto(Pareto) = pareto::ENTRIES,
@@ -136,7 +139,7 @@ impl Distribution {
     /// Returns the quantile (the inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
     ///
     /// Finite from [`Distribution::SMALLEST_U`] to [`Distribution::LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly so
-    /// for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions,
+    /// for the uniform, triangular, discrete, integer, categorical, empirical and constant distributions and those of counts,
     /// otherwise up to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order.
     /// Outside (0, 1) the result has no meaning, but there is no panic.
     pub fn quantile(&self, u: f64) -> f64 {
@@ -174,25 +177,32 @@ impl Distribution {
     }
 
     /// Returns the values of a discrete factor, ascending, each with a `u` at which it is the quantile: for discrete or
-    /// categorical distributions, and for up to 1024 whole numbers (of a Poisson distribution except a thousandth at
-    /// either end). `None` for all others: measured values represent the range between them.
+    /// categorical distributions, and for up to 1024 whole numbers (of counts except a thousandth at either
+    /// end). `None` for all others: measured values represent the range between them.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         match self {
             Self::Discrete(values) | Self::Categorical(values) => Some(values.levels()),
             Self::Integer(integer) => integer.levels(),
-            Self::Poisson(poisson) => poisson.levels(),
+            _ => self.counts()?.levels(),
+        }
+    }
+
+    /// Returns the distribution of counts: Poisson, binomial, negative binomial or geometric.
+    pub(crate) fn counts(&self) -> Option<&counts::Counts> {
+        match self {
+            Self::Poisson(law) | Self::Binomial(law) | Self::NegativeBinomial(law) | Self::Geometric(law) => Some(law),
             _ => None,
         }
     }
 
-    /// Returns whether its values are whole numbers: for integer and Poisson distributions, and for seeds.
+    /// Returns whether its values are whole numbers: for integers, counts and seeds.
     pub fn is_whole(&self) -> bool {
-        matches!(self, Self::Integer(_) | Self::Poisson(_) | Self::Seed(_))
+        self.is_converted_by_value() || self.is_noise()
     }
 
     /// Returns whether values are converted to SI one by one, because whole numbers are not whole in another unit.
     pub(super) fn is_converted_by_value(&self) -> bool {
-        matches!(self, Self::Integer(_) | Self::Poisson(_))
+        matches!(self, Self::Integer(_)) || self.counts().is_some()
     }
 
     /// Returns whether its values are the seeds of a stochastic model: the factor is the noise, not an input.

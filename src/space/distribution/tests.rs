@@ -32,6 +32,9 @@ fn samples() -> Vec<Distribution> {
         Distribution::gamma(2.5, 2.0, 0.25),
         Distribution::exponential(2.0, 1.0),
         Distribution::poisson(4.5),
+        Distribution::binomial(10.0, 0.25),
+        Distribution::negative_binomial(2.5, 0.25),
+        Distribution::geometric(0.25),
         Distribution::student_t(5.0, 1.0, 2.0),
         Distribution::logistic(1.0, 0.5),
         Distribution::pareto(3.0, 2.0),
@@ -94,6 +97,7 @@ fn continuous_families_are_truncated_by_one_rule() {
         Distribution::empirical(&[1.0, 2.0, 5.0], None),
         Distribution::histogram(&[0.0, 4.0, 8.0], &[1.0, 1.0]),
         Distribution::poisson(2.0),
+        Distribution::binomial(9.0, 0.5),
     ] {
         messages.push(cut(single, two).expect_err("no parameters to truncate by").to_string());
     }
@@ -106,7 +110,17 @@ fn continuous_families_are_truncated_by_one_rule() {
 }
 
 #[test]
-fn a_poisson_distribution_has_its_exact_shares() {
+fn counts_have_their_exact_shares() {
+    let coins = made(Distribution::binomial(2.0, 0.5));
+    let at = [0.0, 0.2499, 0.2501, 0.7499, 0.7501, 1.0].map(|u| coins.quantile(u));
+    assert_eq!((at, coins.mean(), coins.sd()), ([0.0, 0.0, 1.0, 1.0, 2.0, 2.0], 1.0, 0.5f64.sqrt()));
+    assert_eq!(coins.levels().map(|levels| levels.len()), Some(3));
+    let trials = made(Distribution::geometric(0.5));
+    assert_eq!([0.4999, 0.5001, 0.7501].map(|u| trials.quantile(u)), [1.0, 2.0, 3.0]);
+    assert_eq!((trials.mean(), trials.support()), (2.0, (1.0, f64::INFINITY)));
+    // One success: failures before it, one less than the trials.
+    let failures = made(Distribution::negative_binomial(1.0, 0.5));
+    assert_eq!([0.4999, 0.5001, 0.7501].map(|u| failures.quantile(u)), [0.0, 1.0, 2.0]);
     let events = made(Distribution::poisson(2.0));
     let at = [0.1353, 0.1354, 0.4060, 0.4061, 0.6766, 0.6767].map(|u| events.quantile(u));
     assert_eq!(at, [0.0, 1.0, 1.0, 2.0, 2.0, 3.0]);
@@ -121,7 +135,7 @@ fn a_poisson_distribution_has_its_exact_shares() {
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta pert weibull gumbel truncated-gumbel gamma exponential poisson student-t logistic pareto histogram gamma discrete integer categorical boolean empirical constant";
+    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta pert weibull gumbel truncated-gumbel gamma exponential poisson binomial negative-binomial geometric student-t logistic pareto histogram gamma discrete integer categorical boolean empirical constant";
     assert_eq!(names.join(" "), expected);
 }
 
@@ -145,6 +159,9 @@ fn json_holds_the_name_and_the_parameters_as_given() {
     {"name":"gamma","shape":2.5,"scale":2.0,"location":0.25}
     {"name":"exponential","scale":2.0,"location":1.0}
     {"name":"poisson","mean":4.5}
+    {"name":"binomial","n":10.0,"p":0.25}
+    {"name":"negative-binomial","n":2.5,"p":0.25}
+    {"name":"geometric","p":0.25}
     {"name":"student-t","df":5.0,"location":1.0,"scale":2.0}
     {"name":"logistic","location":1.0,"scale":0.5}
     {"name":"pareto","shape":3.0,"min":2.0}

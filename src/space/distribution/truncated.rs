@@ -84,10 +84,9 @@ impl Distribution {
         if min <= low && high <= max {
             return self.clone().finite();
         }
-        if matches!(
-            self,
-            Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Poisson(_) | Self::Histogram(_)
-        ) {
+        if matches!(self, Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Histogram(_))
+            || self.counts().is_some()
+        {
             let message =
                 format!("`truncate` does not apply to the {distribution} distribution: leave out values outside");
             return Err(refused("truncate", message));

@@ -93,8 +93,8 @@ fn begun(study: &Study) {
     let Some(model) = apportion_files::ModelKind::from_name(study.subject().name()) else { return };
     let names = study.space().factors().iter().map(|factor| factor.name.clone());
     let outputs = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
-    let request =
-        TemplateRequest { model, title: study.title().map(str::to_owned), factors: names.take(8).collect(), outputs };
+    let (title, factors) = (study.title().map(str::to_owned), names.take(8).collect());
+    let request = TemplateRequest { model, title, factors, tables: Vec::new(), outputs };
     // Inputs that depend on the parameters of a function are not inputs of the default function.
     let Ok(text) = template(&request) else { return };
     let begun = apportion_files::parse_study(&text, Path::new("new.toml"), &[])

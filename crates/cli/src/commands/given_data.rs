@@ -6,9 +6,11 @@ use apportion::given::{Column, analyse, average_replicates, measures, surrogate_
 use apportion::result::RunFacts;
 use apportion::screening::screen_table;
 use apportion::{Distribution, Study};
-use apportion_base::digest::sha256;
+use apportion_base::digest::Sha256;
 use apportion_base::files::read_whole;
-use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
+use apportion_files::exchange::{
+    ColumnKind, Joined, Missing, Selection, Table, factor_column, read_table, table_of_bytes,
+};
 use apportion_report::given::{GivenFacts, build_given, given_document};
 use apportion_report::screening::{build_screening, screening_document};
 
@@ -26,6 +28,10 @@ pub struct Arguments {
     names: Vec<String>,
     #[command(flatten)]
     reading: TableArguments,
+    /// The file of the outputs, if it is not the table: as many rows, in the same order; with --names it has no header either,
+    /// and its columns are those of --outputs
+    #[arg(long, value_name = "FILE")]
+    outputs_from: Option<PathBuf>,
     /// Columns that are outputs, separated by commas
     #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
     outputs: Vec<String>,
@@ -62,14 +68,24 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let kinds: Vec<ColumnKind> =
         study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
-    let sha256 = sha256(&bytes);
+    let (mut digest, mut file) = (Sha256::default(), path.display().to_string());
+    digest.update(&bytes);
     let mut rows = table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).in_file(path)?;
+    if let Some(path) = &arguments.outputs_from {
+        let bytes = read_whole(path).map_err(|error| format!("cannot read the outputs: {error}")).in_file(path)?;
+        digest.update(&bytes);
+        file += &format!(" + {}", path.display());
+        let names = if arguments.names.is_empty() { &[][..] } else { &arguments.outputs };
+        let outputs = table_of_bytes(bytes, &arguments.reading.options(names)).in_file(path)?;
+        rows = Box::new(Joined::new(rows, outputs, &arguments.outputs).in_file(path)?);
+    }
     let Table { mut inputs, mut outputs, dropped, skipped, counter } =
         read_table(rows.as_mut(), &selection).in_file(path)?;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(path, &names, rows.is_unended());
     let name = stem(path);
-    let files = study.iter().flat_map(Study::files).chain([path.to_owned()]).collect();
+    let files =
+        study.iter().flat_map(Study::files).chain([path.to_owned()]).chain(arguments.outputs_from.clone()).collect();
     let artefacts = arguments.output.artefacts(&name, files);
     let is_plain = study.is_none() && !arguments.measures;
     if let Some((study, screening)) = is_plain.then(|| screen_table(&name, &inputs, &outputs)).flatten() {
@@ -84,8 +100,8 @@ pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let distributions = study.as_ref().map(|study| distributions(study, &inputs)).transpose()?;
     let surrogates = surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let facts = GivenFacts {
-        file: path.display().to_string(),
-        sha256,
+        file,
+        sha256: digest.finish(),
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         seed: arguments.seed,
     };

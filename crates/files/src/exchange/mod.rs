@@ -19,5 +19,5 @@ pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
 pub(crate) use rows::number;
-pub use rows::{ColumnKind, Format, ReadOptions, RowReader, RowWriter, open_table, table_of_bytes};
+pub use rows::{ColumnKind, Format, Joined, ReadOptions, RowReader, RowWriter, open_table, table_of_bytes};
 pub use table::{DroppedRows, Missing, Selection, Table, read_table};

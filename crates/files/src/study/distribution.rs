@@ -19,7 +19,8 @@ pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution)
 /// Returns the distribution of a factor.
 pub(super) fn of_factor(context: &Context, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
-    let kind = kind(context, fields)?;
+    let typed = fields.distribution.as_ref();
+    let kind = typed.map_or(Ok(Kind::default()), |typed| context.at(typed, kind(typed.get_ref())))?;
     let mut values = Vec::with_capacity(fields.keys.len());
     for typed in &fields.keys {
         values.push((typed.key.name, parameter(context, fields, kind, typed)?));
@@ -36,16 +37,9 @@ pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
     Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help.clone() }
 }
 
-/// Returns the family, by default the first.
-fn kind(context: &Context, fields: &FactorSection) -> Result<Kind, Fault> {
-    match &fields.distribution {
-        None => Ok(Kind::default()),
-        Some(typed) => {
-            let kind = Kind::from_name(typed.get_ref());
-            let kind = kind.ok_or_else(|| unknown_name("distribution", typed.get_ref(), Kind::all().map(Kind::name)));
-            context.at(typed, kind)
-        }
-    }
+/// Returns the family of that name.
+pub(super) fn kind(name: &str) -> Result<Kind, Problem> {
+    Kind::from_name(name).ok_or_else(|| unknown_name("distribution", name, Kind::all().map(Kind::name)))
 }
 
 /// Returns the value of a key.

@@ -105,6 +105,9 @@ fn unit_of_factor(context: &Context, fields: &FactorSection, input: &Input) -> R
         }
         return Err(context.fault(fields.name.span(), wrong_unit(&name, &input.unit, None, &example)));
     };
+    if input.unit.is_label() {
+        return Ok(input.unit.clone());
+    }
     let unit = context.at(typed, Unit::parse(typed.get_ref()))?;
     if !unit.compatible(&input.unit) {
         return Err(context.fault(typed.span(), wrong_unit(&name, &input.unit, Some(&unit), &example)));

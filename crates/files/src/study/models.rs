@@ -96,11 +96,20 @@ pub fn model_guide(kind: ModelKind) -> Option<String> {
     Some(format!("{}: {}\n\n{text}", kind.name, kind.description))
 }
 
-fn function(reading: &Reading, _: &Space) -> Configured {
+fn function(reading: &Reading, space: &Space) -> Configured {
     outputs(reading)?;
     // A test covers all kinds of this table.
     let function = known_function(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
-    Ok((Arc::new(KnownSubject { function }), Vec::new()))
+    let mut notes = Vec::new();
+    for factor in space.factors() {
+        let Some(input) = function.inputs().iter().find(|input| input.name == factor.name) else { continue };
+        let ((low, high), (from, to)) = (factor.distribution().support(), input.distribution.support());
+        if low < from || high > to {
+            let (name, model) = (&factor.name, function.answer.name);
+            notes.push(format!("the exact indices of {model} hold for {name} from {from} to {to}, and not here"));
+        }
+    }
+    Ok((Arc::new(KnownSubject { function }), notes))
 }
 
 fn afm(reading: &Reading, space: &Space) -> Configured {

@@ -14,6 +14,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::at::At;
 use super::context::{self, Context, Fault};
+use super::distribution;
 use super::error::Problem;
 use super::schema::study_schema;
 use super::sections::{FactorSection, StudyFile};
@@ -22,6 +23,7 @@ use super::sections::{FactorSection, StudyFile};
 pub(super) fn study_file(context: &Context) -> Result<StudyFile, Fault> {
     let mut root = DeTable::parse(&context.text).map_err(|error| syntax(context, &error))?;
     normalise(context, root.get_mut())?;
+    refuse_unknown_distributions(context, root.get_ref())?;
     let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
     join_factors(context, &mut file)?;
     // Before any of them is processed.
@@ -96,6 +98,20 @@ fn normalise(context: &Context, root: &mut DeTable<'_>) -> Result<(), Fault> {
             let key = Spanned::new(typed.span(), Cow::Borrowed(key));
             let value = Spanned::new(typed.span(), typed.get_ref().clone());
             *typed.get_mut() = DeValue::Table(DeTable::from_iter([(key, value)]));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses an unknown distribution before its keys, which are mostly unknown too.
+fn refuse_unknown_distributions(context: &Context, root: &DeTable<'_>) -> Result<(), Fault> {
+    let list = root.get("factor").and_then(|list| list.get_ref().as_array()).into_iter().flatten();
+    let lines = root.get("factors").and_then(|table| table.get_ref().as_table()).into_iter().flat_map(|t| t.values());
+    for factor in list.chain(lines) {
+        if let Some(typed) = factor.get_ref().get("distribution")
+            && let Some(name) = typed.get_ref().as_str()
+        {
+            distribution::kind(name).map_err(|problem| context.fault(typed.span(), problem))?;
         }
     }
     Ok(())

@@ -19,6 +19,9 @@ pub struct TemplateRequest {
     pub title: Option<String>,
     /// Names of the inputs that become factors; by default a choice of the model's.
     pub factors: Vec<String>,
+    /// The table of each of these in a model of one's own, as [`problem_factors`](super::problem_factors) returns them; by
+    /// default from 0 to 1.
+    pub tables: Vec<String>,
     /// Names of the outputs; by default the model's first.
     pub outputs: Vec<String>,
 }
@@ -36,7 +39,7 @@ pub const NEW_PROGRAM: &str = "my_model.py";
 /// use apportion_files::{TemplateRequest, template};
 ///
 /// let factors = vec!["thickness".to_owned(), "velocity".to_owned()];
-/// let request = TemplateRequest { model: ModelKind::AFM, title: None, factors, outputs: Vec::new() };
+/// let request = TemplateRequest { model: ModelKind::AFM, title: None, factors, tables: Vec::new(), outputs: Vec::new() };
 /// let study = apportion_files::parse_study(&template(&request)?, Path::new("mine.toml"), &[])?;
 /// assert_eq!(study.space().factors()[1].name, "velocity");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -110,7 +113,8 @@ fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
         }
         _ => format!(include_str!("../../templates/new/external.toml"), outputs = lines),
     };
-    (model, factors.iter().map(|name| format!("{} = {{ min = 0, max = 1 }}\n", bare_or_quoted(name))).collect())
+    let tables = request.tables.iter().map(String::as_str).chain(std::iter::repeat("{ min = 0, max = 1 }"));
+    (model, factors.iter().zip(tables).map(|(name, table)| format!("{} = {table}\n", bare_or_quoted(name))).collect())
 }
 
 /// Returns the same for a model with its own inputs and outputs.

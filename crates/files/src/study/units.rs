@@ -1,6 +1,7 @@
 //! Quantities and units in studies and messages, and the inputs of a model whose inputs are the factors of a study.
 
 use apportion::model::Input;
+use apportion_base::names::{SHORT_TEXT, is_short_text};
 use apportion_base::quantity::{Dimension, Domain, Quantity, Unit};
 
 use super::at::At;
@@ -8,12 +9,15 @@ use super::context::{Context, Fault};
 use super::error::Problem;
 use super::reading::Reading;
 
-/// Returns the inputs of a model whose only inputs are the factors of the study, each in its own unit.
+/// Returns the inputs of a model whose only inputs are the factors of the study, each in its own unit, which may be any text.
 pub(super) fn factor_inputs(reading: &Reading) -> Result<Vec<Input>, Fault> {
     let mut inputs = Vec::new();
     for fields in reading.file.factor.iter().map(At::get_ref) {
         let unit = match &fields.unit {
-            Some(typed) => reading.context.at(typed, Unit::parse(typed.get_ref()))?,
+            Some(typed) if is_short_text(typed.get_ref()) => Unit::label(typed.get_ref()),
+            Some(typed) => {
+                return reading.context.refuse(typed, "unit", SHORT_TEXT, format!("{:?}", typed.get_ref()));
+            }
             None => Unit::dimensionless(),
         };
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());

@@ -166,6 +166,11 @@ fn texts_of_other_programs_are_read() {
         b"# made by hand\n#a,b\n1,7.5\n# half\n2,0\n",
         b"  a    b\n  1  7.5\n  2  0.0\n",
         b"a,b\n0.1D+01,7.5d0\n2,0\n",
+        // A line of units.
+        b"a,b\nm,EUR\n1,7.5\n2,0\n",
+        b"a b\n[-] [kWh/day]\n1 7.5\n2 0\n",
+        b"\"BehaviorSpace results (NetLogo 6.4.0)\"\n\"my wolf sheep.nlogo\"\n\"experiment\"\n\"04/12/2021 10:11:12:345 +0200\"\n\
+          \"min-pxcor\",\"max-pxcor\"\n\"-16\",\"16\"\n\"a\",\"b\"\n\"1\",\"7.5\"\n\"2\",\"0\"\n",
         GZIP,
         &utf16("a,b\r\n1,7.5\r\n2,0\r\n", false),
         &utf16("a;b\n1;7.5\n2;0\n", true),
@@ -176,6 +181,11 @@ fn texts_of_other_programs_are_read() {
         let (wanted, mut columns) = ([0, 1].map(|place| (place, ColumnKind::default())), [Vec::new(), Vec::new()]);
         rows.read(&wanted, 9, &mut columns).unwrap();
         assert_eq!(columns, [[1.0, 2.0], [7.5, 0.0]], "{name}");
+    }
+    // Text that is no line of units: labels in all rows, and a failed run.
+    for text in ["a,b\nm,7\ns,8\n", "a,b\nfailed,failed\n1,2\n", "a,b\nA,m\nC,s\n"] {
+        let mut rows = table_of_bytes(text.into(), &ReadOptions::default()).unwrap();
+        assert_eq!(rows.read(&[], 9, &mut []).unwrap(), 2, "{text}");
     }
     // One column whose name has a blank.
     let rows = table_of_bytes(b"contact force\n1\n".to_vec(), &ReadOptions::default()).unwrap();

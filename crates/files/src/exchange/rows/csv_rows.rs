@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::io::{Read, Write};
 
+use apportion_base::quantity::Unit;
 use apportion_base::text::{csv_field, plain_field};
 
 use super::lines::Lines;
@@ -11,6 +12,9 @@ use crate::exchange::error::{TableError, refused};
 
 /// Number of rows that are examined to distinguish text columns from number columns.
 const AHEAD: usize = 100;
+
+/// The beginning of a table of NetLogo's BehaviorSpace, which has six lines before its header.
+pub(super) const NETLOGO: &str = "BehaviorSpace results";
 
 /// Reads CSV: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
 pub(super) struct CsvRows {
@@ -53,6 +57,12 @@ impl CsvRows {
         let first = loop {
             match self.next_record()? {
                 Some((record, 1)) if record[0].to_lowercase().starts_with("sep=") => (),
+                // Version, model, experiment, date, and the names and values of the size of the world.
+                Some((record, 1)) if record[0].starts_with(NETLOGO) => {
+                    for _ in 1..6 {
+                        self.next_record()?;
+                    }
+                }
                 Some((record, _)) if record[0].starts_with('#') && !is_error_word(&record[0]) => {
                     let cells = record.iter().map(|cell| cell.trim_start_matches('#').trim());
                     // A single mark is a cell if blanks separate cells.
@@ -82,7 +92,8 @@ impl CsvRows {
                     "its header names the columns ({known}): leave --names out, or add --no-header if the first line is a row"
                 ));
             }
-            return self.set_names(&cells);
+            self.set_names(&cells)?;
+            return self.skip_units();
         }
         let names = if options.names.is_empty() && !options.no_header { comment } else { options.names.clone() };
         self.width = record.len();
@@ -100,6 +111,17 @@ impl CsvRows {
         }
         check_names(&names)?;
         (self.width, self.names) = (names.len(), Some(names));
+        Ok(())
+    }
+
+    /// Leaves out a line of units under the header: text over numbers, some of it units or in brackets.
+    fn skip_units(&mut self) -> Result<(), TableError> {
+        let (first, second) = (self.next_row()?, self.next_row()?);
+        let is_units = first.iter().zip(&second).any(|((units, _), (row, _))| {
+            let mut pairs = units.iter().zip(row).filter(|(_, value)| number(value).is_some());
+            units.iter().all(|unit| number(unit).is_none()) && pairs.any(|(unit, _)| is_unit(unit))
+        });
+        self.ahead.extend(first.filter(|_| !is_units).into_iter().chain(second));
         Ok(())
     }
 
@@ -194,6 +216,12 @@ impl RowReader for CsvRows {
         }
         Ok(rows)
     }
+}
+
+/// Returns whether a cell is a unit of physics, or any text in brackets.
+fn is_unit(cell: &str) -> bool {
+    let is_bracketed = cell.starts_with(['[', '(']) && cell.ends_with([']', ')']);
+    is_bracketed || !cell.is_empty() && Unit::known(cell).is_some()
 }
 
 fn wrong_record(source: csv::Error, line: u64) -> TableError {

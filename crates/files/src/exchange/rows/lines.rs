@@ -4,6 +4,8 @@ use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
 
 use apportion_base::files::MAX_STREAM_BYTES;
 
+use super::csv_rows::NETLOGO;
+
 /// Maximum number of bytes of a line, so that a file without line ends does not exhaust the memory.
 const LONGEST_LINE: usize = 16 << 20;
 
@@ -110,7 +112,7 @@ fn plain_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Detects the separator of the cells from the beginning of a text: that of `sep=` in the first line, as in
 /// spreadsheets; else a comma, a semicolon or a tab outside quotes; else blanks, if the first two lines have equally
-/// many.
+/// many. NetLogo's tables have commas, which their first lines do not show.
 fn separator(begin: &[u8]) -> u8 {
     let mut lines = plain_lines(begin);
     let first = lines.next().unwrap_or_default();
@@ -119,6 +121,9 @@ fn separator(begin: &[u8]) -> u8 {
         && rest.len() < 2
     {
         return rest.first().copied().unwrap_or(b'\t');
+    }
+    if first.trim_ascii_start().strip_prefix(b"\"").unwrap_or(first).starts_with(NETLOGO.as_bytes()) {
+        return b',';
     }
     let mut quoted = false;
     let mut outside = first.iter().filter(|byte| {

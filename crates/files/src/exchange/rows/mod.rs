@@ -4,6 +4,7 @@
 //! gives for the column. Readers and writers process blocks of rows, so that a file may be larger than memory.
 
 mod csv_rows;
+mod joined;
 mod lines;
 mod npy;
 
@@ -18,6 +19,8 @@ use apportion_base::names::{named, refused_name};
 use flate2::read::MultiGzDecoder;
 
 use super::error::{TableError, refused};
+
+pub use joined::Joined;
 
 named! {
     /// The format of a table, chosen by the extension of its file.
