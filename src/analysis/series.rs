@@ -43,8 +43,10 @@ pub(super) fn together(
     if let Some(plain) = &corrections.plain {
         return plain.together(run.study, run.model, places, scaling);
     }
-    let moments = |place: usize| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
-    let parts: Vec<Vec<&MomentParts>> = places.clone().map(moments).collect();
+    let parts: Vec<Vec<&MomentParts>> = places
+        .clone()
+        .map(|place| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect())
+        .collect();
     let plain = aggregate_indices(&parts, &run.study.layout(), scaling, run.study.analysis.intervals)?;
     let varying = places.filter(|place| counts.outputs[*place].values.range().is_some_and(|(low, high)| low < high));
     let surrogates: Option<Vec<&SurrogateEstimates>> =

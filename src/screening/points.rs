@@ -85,9 +85,11 @@ impl Trajectories {
             }
             ScreeningDesign::Trajectory { .. } => Shape::Walk,
         };
-        let mover_of = |number| movers.iter().position(|mover| mover.factors.contains(&number));
-        let factors = space.factors().iter().enumerate();
-        let grids = factors.map(|(number, factor)| (Grid::new(factor, design), mover_of(number))).collect();
+        let mut grids = Vec::with_capacity(space.factors().len());
+        for (number, factor) in space.factors().iter().enumerate() {
+            let mover = movers.iter().position(|mover| mover.factors.contains(&number));
+            grids.push((Grid::new(factor, design), mover));
+        }
         Ok(Self { shape, seed, movers, grids })
     }
 

@@ -283,8 +283,7 @@ impl Length {
             let varying = factors - space.constants().len();
             let fewest = MIN_PLAIN_ROWS.max(PLAIN_ROWS_OF_FACTOR * varying as u64);
             if runs < fewest {
-                let expected =
-                    format!("{fewest} or more: fewer tell only which factors have no effect (a screening)");
+                let expected = format!("{fewest} or more: fewer tell only which factors have no effect (a screening)");
                 return wrong("runs", expected, runs);
             }
             return Ok(smallest.plain(runs)?);

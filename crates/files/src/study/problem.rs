@@ -72,20 +72,21 @@ fn of_json(text: &str) -> Result<Vec<Stated>, Problem> {
             "num_vars, names, bounds, groups and dists must be of one length, with two bounds or more",
         ));
     }
-    let of = |list: &Option<Vec<String>>, at: usize| Some(list.as_ref()?[at].clone());
     let factors = names.into_iter().zip(bounds).enumerate().map(|(at, (name, bounds))| {
-        let (low, high, more) = (bounds[0], bounds[1], bounds[2..].to_vec());
-        Stated { name, low, high, group: of(&groups, at), dist: of(&dists, at), unit: None, more }
+        let [group, dist] = [&groups, &dists].map(|list| Some(list.as_ref()?[at].clone()));
+        Stated { name, low: bounds[0], high: bounds[1], group, dist, unit: None, more: bounds[2..].to_vec() }
     });
     Ok(factors.collect())
 }
 
 fn of_table(text: &str) -> Result<Vec<Stated>, Problem> {
     let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
-    let by_tabs = |line: &str| line.split_whitespace().collect::<Vec<_>>().join("\t") + "\n";
     let (separator, text) = match [',', ';', '\t'].into_iter().find(|separator| first.contains(*separator)) {
         Some(separator) => (separator, text.to_owned()),
-        None => ('\t', text.lines().map(by_tabs).collect()),
+        None => {
+            let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join("\t"));
+            ('\t', lines.collect::<Vec<_>>().join("\n"))
+        }
     };
     let has_header = first.split([separator, ' ']).all(|cell| number(cell).is_none());
     let mut reader = csv::ReaderBuilder::new();
