@@ -1,18 +1,18 @@
 //! The examples run, and their assertions hold.
 
-#[path = "../../examples/function_model.rs"]
+#[path = "../../../examples/function_model.rs"]
 mod function_model;
-#[path = "../../examples/interrupted.rs"]
+#[path = "../../../examples/interrupted.rs"]
 mod interrupted;
-#[path = "../../examples/own_program.rs"]
+#[path = "../../../examples/own_program.rs"]
 mod own_program;
-#[path = "../../examples/pendulum.rs"]
+#[path = "../../../examples/pendulum.rs"]
 mod pendulum;
-#[path = "../../examples/study_file.rs"]
+#[path = "../../../examples/study_file.rs"]
 mod study_file;
-#[path = "../../examples/three_steps.rs"]
+#[path = "../../../examples/three_steps.rs"]
 mod three_steps;
-#[path = "../../examples/units_and_failures.rs"]
+#[path = "../../../examples/units_and_failures.rs"]
 mod units_and_failures;
 
 #[test]

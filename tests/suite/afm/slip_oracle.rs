@@ -41,7 +41,7 @@ const RUNGS: [Fidelity; 4] = [Fidelity::ClosedForm, Fidelity::QuasiStatic, Fidel
 const OF_ORACLE: f64 = 2e-8;
 
 fn oracle() -> Oracle {
-    serde_json::from_str(include_str!("../oracle/afm_slip.json")).unwrap()
+    serde_json::from_str(include_str!("../../oracle/afm_slip.json")).unwrap()
 }
 
 fn scene(factors: [f64; 8]) -> Scene {

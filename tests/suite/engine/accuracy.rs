@@ -1,6 +1,6 @@
 //! The convergence rate of the errors with Sobol' points (`benches/accuracy.rs` measures it in detail).
 
-#[path = "../../benches/outputs/mod.rs"]
+#[path = "../../../benches/outputs/mod.rs"]
 pub mod outputs;
 
 use apportion::design::{DesignSettings, Sampler};

@@ -77,7 +77,7 @@ fn json_reads_back_to_the_same_bits() {
     // The columns are those of the table, and described.
     let (header, _) = table(&files, "coulomb-general-scene.csv");
     assert!(header.iter().eq(value["samples"].as_object().unwrap().keys()), "{header:?}");
-    let documentation = include_str!("../../docs/reference/other-formats.md");
+    let documentation = include_str!("../../../docs/reference/other-formats.md");
     for name in &header {
         assert!(documentation.contains(&format!("`{name}`")), "{name}");
     }

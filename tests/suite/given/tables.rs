@@ -9,8 +9,8 @@ use apportion_report::given::GivenFile;
 use proptest::prelude::*;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::engine::points::random;
 use crate::messages::messages;
-use crate::points::random;
 
 const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\nsampler = \"random\"\n";
 

@@ -4,7 +4,7 @@ use apportion::design::{DesignSettings, Sampler};
 use apportion::estimate::{FirstOrder, Total, Workspace};
 use apportion::model::{Basis, KnownAnswer, KnownFunction};
 
-use crate::accuracy::outputs::{Outputs, design};
+use crate::engine::accuracy::outputs::{Outputs, design};
 
 const SEEDS: u64 = 16;
 

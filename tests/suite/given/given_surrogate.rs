@@ -5,7 +5,7 @@ use apportion::Distribution;
 use apportion::given::{Column, NoVariance, SurrogateOutput, SurrogateRefusal, Surrogates, analyse, surrogate_indices};
 use apportion::model::KnownAnswer;
 
-use crate::points::*;
+use crate::engine::points::*;
 
 fn named(columns: &Columns) -> Vec<Column> {
     let named = |(j, values): (usize, &Vec<f64>)| Column { name: format!("x{}", j + 1), values: values.clone() };

@@ -7,7 +7,7 @@ use ::apportion::{
 };
 
 use crate::common::{Folder, effects, succeed, text};
-use crate::dependent::{Linear, correlations, shapley};
+use crate::engine::dependent::{Linear, correlations, shapley};
 use crate::messages::messages;
 
 fn factor(name: &str, law: Distribution, group: Option<&str>) -> Factor {

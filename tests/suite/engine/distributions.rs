@@ -79,7 +79,7 @@ fn numbers(list: &Value) -> Vec<f64> {
 
 #[test]
 fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
-    let cases: Value = serde_json::from_str(include_str!("../oracle/distributions.json")).expect("json");
+    let cases: Value = serde_json::from_str(include_str!("../../oracle/distributions.json")).expect("json");
     let cases = cases.as_array().expect("a list");
     assert!(cases.len() > 50, "{}", cases.len());
     for case in cases {
@@ -111,7 +111,8 @@ fn every_family_has_its_reference() {
     let names = &schema["definitions"]["FactorSection"]["properties"]["distribution"]["enum"];
     let names: Vec<&str> = names.as_array().expect("names").iter().filter_map(Value::as_str).collect();
     assert!(names.len() >= 24, "{names:?}");
-    let [families, kinds] = [include_str!("../oracle/distributions.json"), include_str!("../oracle/factor_kinds.json")];
+    let [families, kinds] =
+        [include_str!("../../oracle/distributions.json"), include_str!("../../oracle/factor_kinds.json")];
     for name in names {
         let case = format!("{{\"distribution\": \"{name}\", \"parameters\"");
         // The seeds of a stochastic model cannot be compared.

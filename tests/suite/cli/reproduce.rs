@@ -105,7 +105,7 @@ fn assert_verdicts(found: &Reproduction) {
         count("not reproduced"),
         count("contradicted")
     );
-    for document in [include_str!("../../README.md"), include_str!("../../docs/background/papers.md")] {
+    for document in [include_str!("../../../README.md"), include_str!("../../../docs/background/papers.md")] {
         let words = document.split_whitespace().collect::<Vec<_>>().join(" ").replace("their 20", "the papers' 20");
         assert!(words.contains(&said), "{said}");
     }

@@ -6,7 +6,7 @@ use apportion::space::distribution::{KEYS, Kind, Parameter};
 use serde_json::Value;
 
 fn oracle(part: &str) -> Vec<Value> {
-    let all: Value = serde_json::from_str(include_str!("../oracle/factor_kinds.json")).expect("json");
+    let all: Value = serde_json::from_str(include_str!("../../oracle/factor_kinds.json")).expect("json");
     all[part].as_array().expect("a list").clone()
 }
 

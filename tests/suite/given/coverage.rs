@@ -5,7 +5,7 @@ use apportion::given::{Column, GivenError, GivenIndices, InputIndices, NoVarianc
 use apportion::model::{KnownAnswer, KnownFunction};
 use proptest::prelude::*;
 
-use crate::points::*;
+use crate::engine::points::*;
 
 fn named(columns: Columns) -> Vec<Column> {
     columns.into_iter().enumerate().map(|(j, values)| Column { name: format!("x{}", j + 1), values }).collect()

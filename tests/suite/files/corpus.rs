@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, mutated_bytes, target};
+use crate::files::fuzz::{Dictionary, Random, TARGETS, Target, mutated, mutated_bytes, target};
 
 /// Texts made at random from every one of the corpus, unless the environment has another number in `CORPUS_CHANGES`.
 const CHANGES: u64 = 40;

@@ -8,8 +8,8 @@ use apportion_report::given::GivenFile;
 use apportion_report::screening::ScreeningFile;
 
 use crate::common::{Folder, apportion, stderr, stdout, text};
+use crate::engine::points::{Columns, random, saltelli, shuffled, sobol, trajectories};
 use crate::messages::{Messages, messages};
-use crate::points::{Columns, random, saltelli, shuffled, sobol, trajectories};
 
 /// A table of the columns and of their linear combination 3, 2, 1, ... as `y`.
 fn table(columns: &Columns) -> String {

@@ -28,7 +28,7 @@ struct Case {
 /// well-conditioned function of the load, and the rounding of the load where it is not.
 #[test]
 fn maugis_dugdale_agrees_to_twelve_digits() {
-    let oracle: Oracle = serde_json::from_str(include_str!("../oracle/maugis_dugdale.json")).unwrap();
+    let oracle: Oracle = serde_json::from_str(include_str!("../../oracle/maugis_dugdale.json")).unwrap();
     assert!(oracle.cases.len() > 140);
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
     for case in &oracle.cases {
