@@ -5,7 +5,7 @@
 //! `-- coverage 40` prints the table of `docs/guide/existing-runs.md` alone, of 40 seeds.
 
 mod given_coverage;
-#[path = "../tests/suite/points.rs"]
+#[path = "../tests/suite/engine/points.rs"]
 mod points;
 
 use std::time::Instant;

@@ -4,7 +4,7 @@
 //! unknown: root mean square errors of first-order and total indices, of ranks and of bins beside them, the coverage of the
 //! 95 % intervals, and the share of the variance that the surrogates explain. `cargo bench --bench given_surrogate -- [SEEDS]`.
 
-#[path = "../tests/suite/points.rs"]
+#[path = "../tests/suite/engine/points.rs"]
 #[expect(dead_code, reason = "shared with the tests")]
 mod points;
 

@@ -1,7 +1,7 @@
 //! What the fuzzers share: the targets, which the tests of the crate run too, and changes to texts that libFuzzer, which
 //! knows bytes only, does not hit upon.
 
-#[path = "../../tests/suite/fuzz/mod.rs"]
+#[path = "../../tests/suite/files/fuzz/mod.rs"]
 pub mod targets;
 
 use std::sync::OnceLock;

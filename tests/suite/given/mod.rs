@@ -1,0 +1,7 @@
+//! Tables of runs that exist.
+
+mod coverage;
+mod given_data;
+mod given_surrogate;
+mod run_measures;
+mod tables;
