@@ -16,9 +16,10 @@ use apportion::screening::{ScreeningDesign, ScreeningSettings};
 use apportion::{
     AnalysisOptions, Distribution, Estimate, Sampler, Space, Study, StudyBuilder, SurrogateChoice, function_model,
 };
+use rayon::prelude::*;
 
 const BUDGETS: [u64; 4] = [50, 100, 200, 500];
-const SEEDS: u64 = 50;
+const SEEDS: u64 = 16;
 
 /// A function with its exact indices, and what it is like.
 struct Known {
@@ -235,29 +236,32 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
     }
 }
 
+fn section(known: &Known, seeds: u64) -> String {
+    let mut text = format!("\n### {} ({})\n\n", known.name, known.like);
+    let header: String = BUDGETS.iter().map(|budget| format!(" {budget} runs |")).collect();
+    let _ = writeln!(text, "| method |{header}\n|---|{}", "---|".repeat(BUDGETS.len()));
+    for (method, label) in METHODS.into_iter().enumerate() {
+        let _ = write!(text, "| {label} |");
+        for budget in BUDGETS {
+            let mut errors = Errors::default();
+            (0..seeds).for_each(|seed| one(known, method, budget, seed, &mut errors));
+            let cell = match method {
+                2 if errors.without == errors.seeds => "–".to_owned(),
+                2 => format!("– / – / {} %", 100 * errors.leads / errors.seeds),
+                _ => errors.cell(),
+            };
+            let _ = write!(text, " {cell} |");
+        }
+        text.push('\n');
+    }
+    text
+}
+
 fn main() {
     let asked = std::env::args().nth(1).and_then(|text| text.parse().ok());
     let seeds = asked.unwrap_or(SEEDS);
-    let mut text = String::new();
-    for known in functions() {
-        let _ = writeln!(text, "\n### {} ({})\n", known.name, known.like);
-        let header: String = BUDGETS.iter().map(|budget| format!(" {budget} runs |")).collect();
-        let _ = writeln!(text, "| method |{header}\n|---|{}", "---|".repeat(BUDGETS.len()));
-        for (method, label) in METHODS.into_iter().enumerate() {
-            let _ = write!(text, "| {label} |");
-            for budget in BUDGETS {
-                let mut errors = Errors::default();
-                (0..seeds).for_each(|seed| one(&known, method, budget, seed, &mut errors));
-                let cell = match method {
-                    2 if errors.without == errors.seeds => "–".to_owned(),
-                    2 => format!("– / – / {} %", 100 * errors.leads / errors.seeds),
-                    _ => errors.cell(),
-                };
-                let _ = write!(text, " {cell} |");
-            }
-            text.push('\n');
-        }
-    }
+    let sections: Vec<String> = functions().par_iter().map(|known| section(known, seeds)).collect();
+    let text = sections.concat();
     print!("{text}");
     if asked.is_none() {
         let head = include_str!("small_budgets.md.in");
