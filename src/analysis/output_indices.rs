@@ -93,10 +93,12 @@ impl OutputIndices {
 /// Computes mean and variance of one output from the parts of its replicates; `None` without any base point.
 pub fn output_moments(replicates: &[&MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let list = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
-    let influences = Influences::from_moments(replicates, &list)?;
+    let of_base: Vec<MomentParts> = replicates.iter().map(|of| of.without_swaps()).collect();
+    let of_base: Vec<&MomentParts> = of_base.iter().collect();
+    let influences = Influences::from_moments(&of_base, &list)?;
     let judged = match options.by_points() {
         Some(by_points) => {
-            let bounds = by_points.bounds(merged_parts(replicates).without_swaps(), &influences.estimates, &list);
+            let bounds = by_points.bounds(merged_parts(&of_base), &influences.estimates, &list);
             Judgement::with_bounds(influences, bounds)
         }
         // The mean may be missed on both sides, the variance above.

@@ -28,9 +28,9 @@ impl Study {
 /// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate;
 /// `sorted` has the finite ones in rising order.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[&Vec<f64>], sorted: &[f64]) -> Option<Warning> {
-    let values: Vec<f64> = samples.iter().copied().flatten().map(|si| output.unit.from_si(*si)).collect();
     let sorted: Vec<f64> = sorted.iter().map(|si| output.unit.from_si(*si)).collect();
-    let unlikely = Unlikely::find_in_sorted_rows(&values, &sorted)?;
+    let values = samples.iter().copied().flatten().map(|si| output.unit.from_si(*si));
+    let unlikely = Unlikely::find_in_sorted_rows(&sorted, &|value| values.clone().position(|other| other == value))?;
     let (mut place, mut replicate) = (unlikely.first, 0);
     while place >= samples[replicate].len() {
         place -= samples[replicate].len();

@@ -103,8 +103,8 @@ impl Moments {
 
     /// Returns only the sums of y_A and y_B.
     #[must_use]
-    pub fn without_swaps(self) -> Self {
-        Self { swaps: Vec::new(), pairs: None, ..self }
+    pub fn without_swaps(&self) -> Self {
+        Self { base: self.base, range: self.range, ..Self::default() }
     }
 
     /// Returns the number of base points at which A and B have an output.

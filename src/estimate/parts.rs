@@ -83,6 +83,12 @@ impl MomentParts {
         Self { points, parts: self.parts[..parts].to_vec(), ..*self }
     }
 
+    /// Returns only the sums of y_A and y_B of every part.
+    #[must_use]
+    pub fn without_swaps(&self) -> Self {
+        Self { parts: self.parts.iter().map(Moments::without_swaps).collect(), ..*self }
+    }
+
     /// Appends the base points that follow. All parts of `self` must be complete.
     pub fn append(&mut self, mut following: Self) {
         if self.parts.is_empty() {

@@ -35,10 +35,12 @@ impl Influences {
         n: f64,
         of_parts: &[f64],
     ) -> Self {
-        let columns =
-            without.iter().zip(of_parts).map(|(without, n_p)| influence(&estimates, without.as_ref(), n, *n_p));
-        let columns: Vec<Vec<f64>> = columns.collect();
-        let parts = (0..estimates.len()).map(|q| by_replicate(replicates, &columns, q)).collect();
+        let mut parts = Vec::with_capacity(estimates.len());
+        for (q, theta) in estimates.iter().enumerate() {
+            let without = without.iter().map(|without| without.as_ref().map_or(f64::NAN, |without| without[q]));
+            let mut influences = without.zip(of_parts).map(|(without, n_p)| influence(theta - without, n, *n_p));
+            parts.push(replicates.iter().map(|r| influences.by_ref().take(r.parts().len()).collect()).collect());
+        }
         Self { estimates, parts }
     }
 }
@@ -84,16 +86,6 @@ impl<T> LeftOut<T> {
     }
 }
 
-fn influence(estimates: &[f64], without: Option<&Vec<f64>>, n: f64, n_p: f64) -> Vec<f64> {
-    if n_p == 0.0 {
-        return vec![0.0; estimates.len()];
-    }
-    let Some(without) = without else { return vec![f64::NAN; estimates.len()] };
-    estimates.iter().zip(without).map(|(theta, without)| (theta - without) * ((n - n_p) / n_p)).collect()
-}
-
-/// Returns the influences on quantity `q`, sorted into replicates.
-fn by_replicate(replicates: &[&MomentParts], columns: &[Vec<f64>], q: usize) -> PartInfluences {
-    let mut columns = columns.iter();
-    replicates.iter().map(|r| columns.by_ref().take(r.parts().len()).map(|column| column[q]).collect()).collect()
+fn influence(difference: f64, n: f64, n_p: f64) -> f64 {
+    if n_p == 0.0 { 0.0 } else { difference * ((n - n_p) / n_p) }
 }

@@ -121,20 +121,21 @@ impl Levels {
 
 /// Returns ln D of the levels of nested parts, the top one (halves) first, free of the bias of the logarithm.
 fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
-    let mut parts: Vec<Vec<f64>> =
-        quantity.iter().map(|net| net[..1 << shape.depth].iter().map(|x| x / size).collect()).collect();
+    // Of all nets in a row: each has a power of two of them, so that no pair has parts of two nets.
+    let nets = quantity.iter().flat_map(|net| &net[..1 << shape.depth]);
+    let mut parts: Vec<f64> = nets.map(|x| x / size).collect();
     let mut logs = Vec::new();
-    while parts[0].len() > 1 {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for net in &mut parts {
-            for pair in net.chunks_exact(2) {
-                sum += (pair[0] - pair[1]).powi(2) / 4.0;
-                count += 1.0;
-            }
-            *net = net.chunks_exact(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
+    for _ in 0..shape.depth {
+        let pairs = parts.len() / 2;
+        let mut sum = 0.0;
+        for pair in 0..pairs {
+            let (left, right) = (parts[2 * pair], parts[2 * pair + 1]);
+            sum += (left - right).powi(2) / 4.0;
+            parts[pair] = (left + right) / 2.0;
         }
+        parts.truncate(pairs);
         // A level without any difference counts as one of rounding.
-        logs.push(libm::log((sum / count).max(f64::EPSILON * f64::EPSILON)));
+        logs.push(libm::log((sum / pairs as f64).max(f64::EPSILON * f64::EPSILON)));
     }
     logs.reverse();
     logs.truncate(LEVELS);

@@ -43,54 +43,56 @@ impl Unlikely {
     /// Returns the smallest or largest of the finite `values`, if it is such a code and stands out or is repeated
     /// among values that differ, or if it is far from all others.
     pub fn find(values: &[f64]) -> Option<Self> {
-        let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-        let (low, high) = range(&finite, None);
-        [low, high].into_iter().find_map(|value| {
-            let others = range(&finite, Some(value));
-            let width = others.1 - others.0;
-            let gap = (value - others.0).abs().min((value - others.1).abs());
-            let is_code = CODES.iter().any(|code| is_same(*code, value));
-            if others.0 > others.1 || !(is_code || gap > FAR * width) {
-                return None;
-            }
-            let mut rest: Vec<f64> = finite.iter().copied().filter(|other| *other != value).collect();
-            rest.sort_unstable_by(f64::total_cmp);
-            let distinct = 1 + rest.windows(2).filter(|pair| pair[0] != pair[1]).count();
-            let of = finite.len();
-            let count = of - rest.len();
-            let stands_out = gap > width || count > 1 && 2 * distinct > rest.len();
-            let first = values.iter().position(|other| *other == value)?;
-            let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
-            is_unlikely.then_some(Self { value, count, first, of, others })
-        })
+        Self::extreme(&finite_in_order(values), &|value| first_of(values, value))
     }
 
     /// Returns the same of `values` of independent rows; or any value that occurs many times among values that all differ,
     /// unless it is a limit of their range.
     pub fn find_in_rows(values: &[f64]) -> Option<Self> {
-        let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-        sorted.sort_unstable_by(f64::total_cmp);
-        Self::find_in_sorted_rows(values, &sorted)
+        Self::find_in_sorted_rows(&finite_in_order(values), &|value| first_of(values, value))
     }
 
-    /// Returns the same, given the finite `values` in rising order, too.
-    pub fn find_in_sorted_rows(values: &[f64], sorted: &[f64]) -> Option<Self> {
-        Self::find(values).or_else(|| Self::repeated(values, sorted))
+    /// Returns the same, given the finite values in rising order, and where each occurs first.
+    pub fn find_in_sorted_rows(sorted: &[f64], first: &dyn Fn(f64) -> Option<usize>) -> Option<Self> {
+        Self::extreme(sorted, first).or_else(|| Self::repeated(sorted, first))
+    }
+
+    fn extreme(sorted: &[f64], first: &dyn Fn(f64) -> Option<usize>) -> Option<Self> {
+        let of = sorted.len();
+        let lowest = sorted.partition_point(|value| *value <= sorted[0]);
+        let highest = sorted.partition_point(|value| *value < sorted[of - 1]);
+        let ends = [(*sorted.first()?, &sorted[lowest..]), (*sorted.last()?, &sorted[..highest])];
+        ends.into_iter().find_map(|(value, rest)| {
+            let others = (*rest.first()?, *rest.last()?);
+            let width = others.1 - others.0;
+            let gap = (value - others.0).abs().min((value - others.1).abs());
+            let is_code = CODES.iter().any(|code| is_same(*code, value));
+            if !(is_code || gap > FAR * width) {
+                return None;
+            }
+            let distinct = rest.chunk_by(|a, b| a == b).count();
+            let count = of - rest.len();
+            let stands_out = gap > width || count > 1 && 2 * distinct > rest.len();
+            let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
+            is_unlikely.then(|| Some(Self { value, count, first: first(value)?, of, others }))?
+        })
     }
 
     /// Returns the value that alone occurs many times.
-    fn repeated(values: &[f64], sorted: &[f64]) -> Option<Self> {
+    fn repeated(sorted: &[f64], first: &dyn Fn(f64) -> Option<usize>) -> Option<Self> {
         let runs = sorted.chunk_by(|a, b| a == b);
         let longest = runs.clone().max_by_key(|run| run.len())?;
         let (value, count, of, distinct) = (longest[0], longest.len(), sorted.len(), runs.count());
-        let others = range(sorted, Some(value));
-        let width = others.1 - others.0;
-        let beyond = (others.0 - value).max(value - others.1);
-        let is_limit = (-0.0..=CUT * width).contains(&beyond);
+        let (lowest, highest) = (sorted[0], sorted[of - 1]);
         let is_many = count >= MIN_COUNT.max((MIN_SHARE * of as f64) as usize) && 2 * count <= of;
         let all_differ = distinct >= MIN_VALUES && distinct - 1 == of - count;
-        let first = values.iter().position(|other| *other == value)?;
-        (is_many && all_differ && !is_limit).then_some(Self { value, count, first, of, others })
+        if !(is_many && all_differ) {
+            return None;
+        }
+        let low = if value == lowest { sorted[count] } else { lowest };
+        let high = if value == highest { sorted[of - count - 1] } else { highest };
+        let is_limit = (-0.0..=CUT * (high - low)).contains(&(low - value).max(value - high));
+        (!is_limit).then(|| Some(Self { value, count, first: first(value)?, of, others: (low, high) }))?
     }
 
     /// Describes it in a table; `row` is the row of its first occurrence, from 1.
@@ -112,13 +114,14 @@ impl Unlikely {
     }
 }
 
-/// Returns the smallest and the largest of the values other than `value`.
-fn range(values: &[f64], value: Option<f64>) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for other in values.iter().copied().filter(|other| Some(*other) != value) {
-        (low, high) = (low.min(other), high.max(other));
-    }
-    (low, high)
+fn finite_in_order(values: &[f64]) -> Vec<f64> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted
+}
+
+fn first_of(values: &[f64], value: f64) -> Option<usize> {
+    values.iter().position(|other| *other == value)
 }
 
 #[cfg(test)]
