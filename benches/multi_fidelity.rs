@@ -182,7 +182,7 @@ fn main() {
             let plain = measured(pair, seeds, single, "off", None);
             let surrogate = measured(pair, seeds, single, "on", None);
             let row = format!(
-                "| {} | {} | {dear} and {own}; {single} | {:.1e} | {:.1e} | {:.1e} | {:.0} | {:.1} | {:.3} |",
+                "| {} | {} | {dear} and {own}; {single} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1} | {:.3} |",
                 pair.name,
                 pair.cost,
                 both.rmse(),

@@ -64,6 +64,7 @@ def test_unknown_keywords_are_errors_whatever_their_value():
         ({"second_ordr": False}, "did you mean second_order"),
         ({"target": 0.01}, "did you mean accuracy"),
         ({"nonsense_of_mine": None}, "expected one of "),
+        ({"x1": (0, 1)}, "factors come as a mapping"),
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.Study(add, UNIT, **keywords)

@@ -99,15 +99,17 @@ _OTHERS = {
 }
 
 
-def refuse_unknown(keywords: Iterable[str], known: Iterable[str]) -> None:
+def refuse_unknown(keywords: Mapping[str, Any], known: Iterable[str]) -> None:
     """A `StudyError` for the first unknown keyword, with the probable one."""
     known = list(known)
-    for keyword in keywords:
+    for keyword, value in keywords.items():
         if keyword in known:
             continue
         near = difflib.get_close_matches(keyword, known, 1)
         meant = _OTHERS.get(keyword, near[0] if near else None)
         hint = f"did you mean {meant}?" if meant in known else f"expected one of {', '.join(known)}"
+        if meant is None and (isinstance(value, (Factor, tuple)) or hasattr(value, "ppf")):
+            hint = f'factors come as a mapping, as in {{"{keyword}": {value!r:.40}}}'
         if meant in RUN and meant not in known:
             hint = f"did you mean {meant}, which run() and analyse() take?"
         raise StudyError(f"unknown keyword {keyword}: {hint}")

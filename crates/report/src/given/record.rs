@@ -227,7 +227,7 @@ pub fn build_given(
 fn unlikely(column: &Column) -> Option<String> {
     let unlikely = Unlikely::find_in_rows(&column.values)?;
     let (text, value) = (unlikely.in_table(unlikely.first + 1), unlikely.value);
-    Some(format!("{}: {text} (--missing-value={value:?})", column.name))
+    Some(format!("{}: {text} (--missing-value={value:?}, NaN in Python)", column.name))
 }
 
 fn points_name(points: &PointSet) -> &'static str {

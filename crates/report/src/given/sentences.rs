@@ -175,7 +175,7 @@ pub(super) fn codes(outputs: &[Column]) -> Vec<String> {
     let sentence = |group: &[(&Column, Unlikely)]| {
         let names: Vec<String> = group.iter().map(|(output, _)| output.name.clone()).collect();
         let (unlikely, value) = (&group[0].1, group[0].1.value);
-        format!("{}: {} (--missing-value={value:?})", listed(&names), unlikely.in_table(unlikely.first + 1))
+        format!("{}: {} (--missing-value={value:?}, NaN in Python)", listed(&names), unlikely.in_table(unlikely.first + 1))
     };
     groups.map(sentence).collect()
 }
