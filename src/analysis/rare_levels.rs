@@ -212,4 +212,5 @@ fn counts(design: &Design, parts: &[Part]) -> Vec<u64> {
 }
 
 #[cfg(test)]
+#[path = "tests/rare_levels.rs"]
 mod tests;

@@ -114,4 +114,5 @@ fn means_over_slices(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent
 }
 
 #[cfg(test)]
+#[path = "tests/scatter.rs"]
 mod tests;

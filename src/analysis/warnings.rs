@@ -236,4 +236,5 @@ fn error_of_rounding(values: &CentralMoments) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/warnings.rs"]
 mod tests;

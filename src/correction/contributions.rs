@@ -236,4 +236,5 @@ impl Contributions {
 }
 
 #[cfg(test)]
+#[path = "tests/contributions.rs"]
 mod tests;

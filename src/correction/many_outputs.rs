@@ -191,4 +191,5 @@ impl Together<'_> {
 }
 
 #[cfg(test)]
+#[path = "tests/many_outputs.rs"]
 mod tests;

@@ -98,4 +98,5 @@ fn quotient(a: Estimate, b: Estimate) -> Estimate {
 }
 
 #[cfg(test)]
+#[path = "tests/mean.rs"]
 mod tests;

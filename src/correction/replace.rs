@@ -124,4 +124,5 @@ pub(crate) fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval>
 }
 
 #[cfg(test)]
+#[path = "tests/replace.rs"]
 mod tests;

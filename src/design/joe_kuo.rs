@@ -66,4 +66,5 @@ fn from_line(line: &str) -> Directions {
 }
 
 #[cfg(test)]
+#[path = "tests/joe_kuo.rs"]
 mod tests;

@@ -86,4 +86,5 @@ impl Permutation {
 }
 
 #[cfg(test)]
+#[path = "tests/latin.rs"]
 mod tests;

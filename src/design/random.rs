@@ -43,4 +43,5 @@ pub(crate) fn shuffle<T>(items: &mut [T], rng: &mut ChaCha8Rng) {
 }
 
 #[cfg(test)]
+#[path = "tests/random.rs"]
 mod tests;

@@ -180,4 +180,5 @@ fn key(varying: &[usize], base: Matrix, columns: &[usize], from: Matrix) -> Key 
 }
 
 #[cfg(test)]
+#[path = "tests/rows.rs"]
 mod tests;

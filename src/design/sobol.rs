@@ -125,4 +125,5 @@ fn at_index(directions: &Directions, index: u64) -> u32 {
 }
 
 #[cfg(test)]
+#[path = "tests/sobol.rs"]
 mod tests;

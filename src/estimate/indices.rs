@@ -69,4 +69,5 @@ fn usable_variance(base: &BaseMoments) -> Result<f64, Undefined> {
 }
 
 #[cfg(test)]
+#[path = "tests/indices.rs"]
 mod tests;

@@ -154,4 +154,5 @@ pub fn merged(parts: &[Moments]) -> Moments {
 }
 
 #[cfg(test)]
+#[path = "tests/parts.rs"]
 mod tests;

@@ -75,4 +75,5 @@ impl PointOutputs {
 }
 
 #[cfg(test)]
+#[path = "tests/point_outputs.rs"]
 mod tests;

@@ -42,4 +42,5 @@ pub fn shapley_effects(single: &[f64], proper: &[f64]) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[path = "tests/shapley.rs"]
 mod tests;

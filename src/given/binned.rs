@@ -177,4 +177,5 @@ impl Lines {
 }
 
 #[cfg(test)]
+#[path = "tests/binned.rs"]
 mod tests;

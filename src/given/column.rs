@@ -49,6 +49,7 @@ pub(crate) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
 }
 
 #[cfg(test)]
+#[path = "tests/column.rs"]
 mod tests;
 
 /// A column that cannot be an input because its cells are not numbers.

@@ -133,4 +133,5 @@ impl Order {
 }
 
 #[cfg(test)]
+#[path = "tests/order.rs"]
 mod tests;

@@ -85,4 +85,5 @@ fn one_over_carrying_rows(z: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/outcome.rs"]
 mod tests;

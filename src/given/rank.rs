@@ -89,4 +89,5 @@ fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/rank.rs"]
 mod tests;

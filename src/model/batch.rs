@@ -236,4 +236,5 @@ impl Batch {
 }
 
 #[cfg(test)]
+#[path = "tests/batch.rs"]
 mod tests;

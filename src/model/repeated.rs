@@ -170,4 +170,5 @@ impl Worker for RepeatedWorker<'_> {
 }
 
 #[cfg(test)]
+#[path = "tests/repeated.rs"]
 mod tests;

@@ -148,4 +148,5 @@ fn plain_number(digits: &str) -> Option<usize> {
 }
 
 #[cfg(test)]
+#[path = "tests/series.rs"]
 mod tests;

@@ -266,4 +266,5 @@ fn decimals(index: f64) -> String {
 }
 
 #[cfg(test)]
+#[path = "tests/warning.rs"]
 mod tests;

@@ -118,4 +118,5 @@ fn without_numbers(reason: &RowFailure) -> RowFailure {
 }
 
 #[cfg(test)]
+#[path = "tests/failures.rs"]
 mod tests;

@@ -114,4 +114,5 @@ impl<'a> Fold<'_, 'a> {
 }
 
 #[cfg(test)]
+#[path = "tests/fold.rs"]
 mod tests;

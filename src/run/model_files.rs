@@ -81,4 +81,5 @@ fn by_name(files: &Value) -> BTreeMap<String, Vec<String>> {
 }
 
 #[cfg(test)]
+#[path = "tests/model_files.rs"]
 mod tests;

@@ -235,4 +235,5 @@ impl<'a> RowWorker<'a> {
 }
 
 #[cfg(test)]
+#[path = "tests/rows.rs"]
 mod tests;

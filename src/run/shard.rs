@@ -83,4 +83,5 @@ pub(super) fn quotient(a: u64, b: u64, divisor: u64) -> u64 {
 }
 
 #[cfg(test)]
+#[path = "tests/shard.rs"]
 mod tests;

@@ -272,4 +272,5 @@ impl Store {
 }
 
 #[cfg(test)]
+#[path = "tests/store.rs"]
 mod tests;

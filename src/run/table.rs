@@ -133,4 +133,5 @@ impl RowSource for Table<'_, '_> {
 }
 
 #[cfg(test)]
+#[path = "tests/table.rs"]
 mod tests;

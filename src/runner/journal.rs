@@ -260,4 +260,5 @@ pub(super) fn rows_on_record(study: &Study, store: &Store) -> u64 {
 }
 
 #[cfg(test)]
+#[path = "tests/journal.rs"]
 mod tests;

@@ -244,4 +244,5 @@ impl<'a> LowFidelityRun<'a> {
 }
 
 #[cfg(test)]
+#[path = "tests/low_fidelity.rs"]
 mod tests;

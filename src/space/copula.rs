@@ -169,4 +169,5 @@ fn with_min_eigenvalue(matrix: DMatrix<f64>, min: f64) -> DMatrix<f64> {
 }
 
 #[cfg(test)]
+#[path = "tests/copula.rs"]
 mod tests;

@@ -239,5 +239,5 @@ fn rank_scores(column: &[f64]) -> Vec<f64> {
 }
 
 #[cfg(test)]
-#[path = "dependence/tests.rs"]
+#[path = "tests/dependence.rs"]
 mod tests;

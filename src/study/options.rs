@@ -302,4 +302,5 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
 }
 
 #[cfg(test)]
+#[path = "tests/options.rs"]
 mod tests;

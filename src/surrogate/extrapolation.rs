@@ -291,4 +291,5 @@ pub(crate) fn groups(expansion: &Expansion) -> BTreeMap<(usize, Term), Group> {
 }
 
 #[cfg(test)]
+#[path = "tests/extrapolation.rs"]
 mod tests;

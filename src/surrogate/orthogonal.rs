@@ -230,4 +230,5 @@ pub(super) fn recurred(x: &[f64], degree: usize, next: impl Fn(f64, f64, f64, f6
 }
 
 #[cfg(test)]
+#[path = "tests/orthogonal.rs"]
 mod tests;

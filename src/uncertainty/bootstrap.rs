@@ -152,4 +152,5 @@ pub(super) fn counts_of(points: KeptPoints<'_>, seed: u64, resample: usize) -> V
 }
 
 #[cfg(test)]
+#[path = "tests/bootstrap.rs"]
 mod tests;

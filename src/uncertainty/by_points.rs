@@ -83,4 +83,5 @@ pub(crate) fn quantile(sorted: &[f64], p: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/by_points.rs"]
 mod tests;

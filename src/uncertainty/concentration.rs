@@ -52,4 +52,5 @@ fn excess_kurtosis(parts: &PartInfluences) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/concentration.rs"]
 mod tests;

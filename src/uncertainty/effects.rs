@@ -190,4 +190,5 @@ pub(crate) fn differs_clearly(gap: Estimate) -> bool {
 }
 
 #[cfg(test)]
+#[path = "tests/effects.rs"]
 mod tests;

@@ -26,4 +26,5 @@ pub fn jackknife(all: &[f64], without: &[Vec<f64>]) -> Vec<Estimate> {
 }
 
 #[cfg(test)]
+#[path = "tests/jackknife.rs"]
 mod tests;

@@ -228,4 +228,5 @@ fn incomplete(shape: &Shape, rho: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/net_decay.rs"]
 mod tests;

@@ -111,4 +111,5 @@ pub fn probability_above(estimate: Estimate, error: StandardError, threshold: f6
 }
 
 #[cfg(test)]
+#[path = "tests/ranks.rs"]
 mod tests;

@@ -63,4 +63,5 @@ fn tetragamma(x: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/special.rs"]
 mod tests;

@@ -141,4 +141,5 @@ impl EffectQuantities<Unseen> {
 }
 
 #[cfg(test)]
+#[path = "tests/unseen.rs"]
 mod tests;

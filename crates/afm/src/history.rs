@@ -270,4 +270,5 @@ fn straight(start: &Sample, middle: &Sample, end: &Sample) -> bool {
 }
 
 #[cfg(test)]
+#[path = "tests/history.rs"]
 mod tests;

@@ -288,4 +288,5 @@ fn count(batch: &mut Batch, rung: Fidelity, rows: u64, evaluations: u64, largest
 }
 
 #[cfg(test)]
+#[path = "tests/model.rs"]
 mod tests;

@@ -268,4 +268,5 @@ fn first_true(statement: impl Fn(f64) -> Result<bool, Failure>) -> Result<Option
 }
 
 #[cfg(test)]
+#[path = "tests/modes.rs"]
 mod tests;

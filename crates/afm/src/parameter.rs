@@ -50,4 +50,5 @@ impl Scene {
 }
 
 #[cfg(test)]
+#[path = "tests/parameter.rs"]
 mod tests;

@@ -76,4 +76,5 @@ fn torsion_constant(width: f64, thickness: f64, torsion: Torsion) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/probe.rs"]
 mod tests;

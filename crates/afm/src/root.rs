@@ -61,4 +61,5 @@ fn interpolate(newest: Point, opposite: Point, third: Point) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/root.rs"]
 mod tests;

@@ -236,4 +236,5 @@ pub fn away_from_zero(value: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/special.rs"]
 mod tests;

@@ -141,4 +141,5 @@ pub fn seconds(duration: std::time::Duration) -> String {
 }
 
 #[cfg(test)]
+#[path = "tests/text.rs"]
 mod tests;

@@ -188,4 +188,5 @@ impl Spread {
 }
 
 #[cfg(test)]
+#[path = "tests/density.rs"]
 mod tests;

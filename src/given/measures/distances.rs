@@ -26,4 +26,5 @@ pub fn distances(order: &Order, Partition { labels, count }: &Partition) -> Vec<
 }
 
 #[cfg(test)]
+#[path = "tests/distances.rs"]
 mod tests;

@@ -70,4 +70,5 @@ impl Tie {
 }
 
 #[cfg(test)]
+#[path = "tests/fourier.rs"]
 mod tests;

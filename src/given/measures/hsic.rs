@@ -107,4 +107,5 @@ fn taken(values: &[f64], rows: &[usize]) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[path = "tests/hsic.rs"]
 mod tests;

@@ -60,4 +60,5 @@ impl Influences {
 }
 
 #[cfg(test)]
+#[path = "tests/marginals.rs"]
 mod tests;

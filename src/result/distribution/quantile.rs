@@ -18,4 +18,5 @@ pub fn quantile(sorted: &[f64], p: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/quantile.rs"]
 mod tests;

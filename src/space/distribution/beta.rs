@@ -226,4 +226,5 @@ pub(super) fn tails_of_sides(lower: &Side, upper: &Side, (x, y): (f64, f64)) -> 
 }
 
 #[cfg(test)]
+#[path = "tests/beta.rs"]
 mod tests;

@@ -84,4 +84,5 @@ impl Family for Seed {
 }
 
 #[cfg(test)]
+#[path = "tests/seed.rs"]
 mod tests;

@@ -207,4 +207,5 @@ impl Inner {
 }
 
 #[cfg(test)]
+#[path = "tests/basis.rs"]
 mod tests;

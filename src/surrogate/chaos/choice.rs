@@ -314,4 +314,5 @@ pub(super) fn mixed(number: u64) -> u64 {
 }
 
 #[cfg(test)]
+#[path = "tests/choice.rs"]
 mod tests;

@@ -289,4 +289,5 @@ fn slope(elementary: &Elementary, orders: &[f64], part: &Tile, outer: &Tile) -> 
 }
 
 #[cfg(test)]
+#[path = "tests/kernel.rs"]
 mod tests;

@@ -434,4 +434,5 @@ fn factor_block(block: &mut [Lane; LANES]) -> bool {
 }
 
 #[cfg(test)]
+#[path = "tests/linear.rs"]
 mod tests;

@@ -156,4 +156,5 @@ fn searched(
 }
 
 #[cfg(test)]
+#[path = "tests/optimise.rs"]
 mod tests;

@@ -259,4 +259,5 @@ fn by_residual(
 }
 
 #[cfg(test)]
+#[path = "tests/squares.rs"]
 mod tests;

@@ -207,4 +207,5 @@ fn descend(start: f64, limit: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 
 }
 
 #[cfg(test)]
+#[path = "tests/dugdale.rs"]
 mod tests;

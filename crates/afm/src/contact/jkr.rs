@@ -42,4 +42,5 @@ pub(super) fn pull_off(pair: &Pair) -> f64 {
 }
 
 #[cfg(test)]
+#[path = "tests/jkr.rs"]
 mod tests;

@@ -39,4 +39,5 @@ impl Armstrong<'_> {
 }
 
 #[cfg(test)]
+#[path = "tests/armstrong.rs"]
 mod tests;

@@ -129,4 +129,5 @@ impl Problem<2> for Sheared<'_> {
 }
 
 #[cfg(test)]
+#[path = "tests/lemaitre_carlson.rs"]
 mod tests;

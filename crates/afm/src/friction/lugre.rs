@@ -115,4 +115,5 @@ impl LuGre {
 }
 
 #[cfg(test)]
+#[path = "tests/lugre.rs"]
 mod tests;

@@ -177,4 +177,5 @@ impl Problem<3> for Ramp {
 }
 
 #[cfg(test)]
+#[path = "tests/ramp.rs"]
 mod tests;

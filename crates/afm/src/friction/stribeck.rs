@@ -48,4 +48,5 @@ impl Stribeck<'_> {
 }
 
 #[cfg(test)]
+#[path = "tests/stribeck.rs"]
 mod tests;

@@ -137,4 +137,5 @@ impl Histories {
 }
 
 #[cfg(test)]
+#[path = "tests/history.rs"]
 mod tests;

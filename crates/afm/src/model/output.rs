@@ -94,13 +94,5 @@ pub(super) fn edge(symbol: &str) -> Unit {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_unit_is_known() {
-        for output in AfmOutput::ALL {
-            assert!(Unit::parse(output.row().0).is_ok());
-        }
-    }
-}
+#[path = "tests/output.rs"]
+mod tests;

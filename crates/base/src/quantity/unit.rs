@@ -309,4 +309,5 @@ impl From<Unit> for String {
 }
 
 #[cfg(test)]
+#[path = "tests/unit.rs"]
 mod tests;

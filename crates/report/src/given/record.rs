@@ -6,7 +6,7 @@ use apportion::given::{
 };
 use apportion::result::OutputDistribution;
 use apportion::uncertainty::Estimate;
-use apportion_base::quantity::{Unit, Unlikely};
+use apportion_base::quantity::Unit;
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
@@ -218,16 +218,9 @@ pub fn build_given(
         dependence: indices.dependence.clone(),
         surrogate: surrogate_record(surrogates),
         outputs,
-        warnings: inputs.iter().filter_map(unlikely).chain(sentences::codes(columns)).chain(warnings).collect(),
+        warnings: sentences::codes(inputs).into_iter().chain(sentences::codes(columns)).chain(warnings).collect(),
         notes: sentences::notes(serves),
     }
-}
-
-/// Returns a sentence on the unlikely value of a column, if it has one.
-fn unlikely(column: &Column) -> Option<String> {
-    let unlikely = Unlikely::find_in_rows(&column.values)?;
-    let (text, value) = (unlikely.in_table(unlikely.first + 1), unlikely.value);
-    Some(format!("{}: {text} (--missing-value={value:?}, NaN in Python)", column.name))
 }
 
 fn points_name(points: &PointSet) -> &'static str {

@@ -167,17 +167,18 @@ pub(super) fn few_rows(of: &OutputDistribution) -> Option<String> {
     ))
 }
 
-/// Returns the warnings of values of outputs that may mark failed runs: outputs with the same one share a sentence.
-pub(super) fn codes(outputs: &[Column]) -> Vec<String> {
+/// Returns the warnings of values that may mark failed runs: neighbouring columns with the same one share a sentence.
+pub(super) fn codes(columns: &[Column]) -> Vec<String> {
     let found: Vec<(&Column, Unlikely)> =
-        outputs.iter().filter_map(|output| Some((output, Unlikely::find_in_rows(&output.values)?))).collect();
+        columns.iter().filter_map(|column| Some((column, Unlikely::find_in_rows(&column.values)?))).collect();
     let groups = found.chunk_by(|(_, a), (_, b)| (a.value, a.count, a.first) == (b.value, b.count, b.first));
-    let sentence = |group: &[(&Column, Unlikely)]| {
-        let names: Vec<String> = group.iter().map(|(output, _)| output.name.clone()).collect();
-        let (unlikely, value) = (&group[0].1, group[0].1.value);
-        format!("{}: {} (--missing-value={value:?}, NaN in Python)", listed(&names), unlikely.in_table(unlikely.first + 1))
-    };
-    groups.map(sentence).collect()
+    let mut sentences = Vec::new();
+    for group in groups {
+        let names: Vec<String> = group.iter().map(|(column, _)| column.name.clone()).collect();
+        let (text, value) = (group[0].1.in_table(group[0].1.first + 1), group[0].1.value);
+        sentences.push(format!("{}: {text} (--missing-value={value:?}, NaN in Python)", listed(&names)));
+    }
+    sentences
 }
 
 /// Describes replicates that were averaged.
