@@ -57,6 +57,7 @@ impl Unlikely {
         Self::extreme(sorted, first).or_else(|| Self::repeated(sorted, first))
     }
 
+    /// Returns the smallest or largest value, if it is a code or far from all others.
     fn extreme(sorted: &[f64], first: &dyn Fn(f64) -> Option<usize>) -> Option<Self> {
         let of = sorted.len();
         let lowest = sorted.partition_point(|value| *value <= sorted[0]);
@@ -74,7 +75,7 @@ impl Unlikely {
             let count = of - rest.len();
             let stands_out = gap > width || count > 1 && 2 * distinct > rest.len();
             let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
-            is_unlikely.then(|| Some(Self { value, count, first: first(value)?, of, others }))?
+            if is_unlikely { Some(Self { value, count, first: first(value)?, of, others }) } else { None }
         })
     }
 
@@ -92,7 +93,7 @@ impl Unlikely {
         let low = if value == lowest { sorted[count] } else { lowest };
         let high = if value == highest { sorted[of - count - 1] } else { highest };
         let is_limit = (-0.0..=CUT * (high - low)).contains(&(low - value).max(value - high));
-        (!is_limit).then(|| Some(Self { value, count, first: first(value)?, of, others: (low, high) }))?
+        if is_limit { None } else { Some(Self { value, count, first: first(value)?, of, others: (low, high) }) }
     }
 
     /// Describes it in a table; `row` is the row of its first occurrence, from 1.
