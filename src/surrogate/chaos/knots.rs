@@ -21,8 +21,9 @@ const ROWS_BETWEEN: usize = 4;
 /// Maximum number of values of all knots that are tried.
 const MAX_VALUES: usize = 10_000_000;
 
-/// Steps of the optimiser after each.
-const ITERATIONS: usize = 20;
+/// Steps of the optimiser: before the first, after each, and after the last.
+const FIRST_ITERATIONS: usize = 20;
+const ITERATIONS: usize = 6;
 const LAST_ITERATIONS: usize = 12;
 
 /// Leading terms by which places are improved, and places tried.
@@ -43,27 +44,27 @@ struct Place {
 pub fn with_knots(prior: &Prior) -> Option<Prior> {
     let rows = prior.fitted_rows();
     let mut prior = prior.clone().with_degree(DEGREE);
-    prior.improve(rows, 2 * ITERATIONS);
+    prior.improve(rows, FIRST_ITERATIONS);
     add_knots(&mut prior, rows);
     if prior.knots.is_empty() {
         return None;
     }
     let mut prior = prior.with_degree(FITTED_DEGREE);
-    prior.improve(prior.rows.min(2 * rows), 2 * LAST_ITERATIONS);
+    prior.improve(prior.rows.min(2 * rows), LAST_ITERATIONS);
     Some(prior)
 }
 
 /// Adds knots by the evidence of some rows, moves them to where all rows show them, and then those that appear
 /// in twice as many rows: the first ones hide them.
 fn add_knots(prior: &mut Prior, rows: usize) {
-    for rows in [rows, prior.rows.min(2 * rows)] {
-        let before = prior.knots.len();
-        add_by_evidence(prior, rows);
-        if prior.knots.len() == before {
-            break;
-        }
-        if prior.rows > rows {
-            place_by_all_rows(prior, rows);
+    add_by_evidence(prior, rows);
+    let (found, more) = (prior.knots.len(), prior.rows.min(2 * rows));
+    if found > 0 && more > rows {
+        place_by_all_rows(prior, rows);
+        prior.improve(more, LAST_ITERATIONS);
+        add_by_evidence(prior, more);
+        if prior.knots.len() > found && prior.rows > more {
+            place_by_all_rows(prior, more);
         }
     }
 }
@@ -178,5 +179,4 @@ fn place_by_all_rows(prior: &mut Prior, rows: usize) {
         }
         prior.basis.factors[factor].move_knot(number, best.1);
     }
-    prior.improve(all.min(2 * rows), LAST_ITERATIONS);
 }

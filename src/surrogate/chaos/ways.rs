@@ -32,7 +32,7 @@ const MAX_ROWS_OF_COVARIANCE: usize = 600;
 
 /// Terms of a table of few rows, for each row and at most; the same of many rows.
 const TERMS_OF_ROW: usize = 4;
-const MAX_TERMS: usize = 800;
+const MAX_TERMS: usize = 500;
 const ROWS_OF_TERM: usize = 2;
 const MAX_TERMS_OF_GRAM: usize = 600;
 

@@ -44,7 +44,7 @@ fn a_cheaper_step_model_removes_most_of_the_error_without_bias() {
     let variance: f64 = parts.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
     let exact: Vec<f64> =
         parts.iter().flat_map(|v| [v / variance, v / (1.0 + v) * (variance + 1.0) / variance]).collect();
-    const SEEDS: usize = 12;
+    const SEEDS: usize = 8;
     let errors = |text: &str| -> Vec<Vec<f64>> {
         let of_seed = |seed: usize| {
             let found = numbers(&study(text, &[&format!("design.seed={seed}"), "design.base_samples=64"]), 1);

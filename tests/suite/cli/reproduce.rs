@@ -20,7 +20,7 @@ struct Reproduction {
 }
 
 /// The whole at the sizes of a quick look.
-static QUICK: LazyLock<Reproduction> = LazyLock::new(|| reproduce(&["--quick", "--threads", "1"]));
+static QUICK: LazyLock<Reproduction> = LazyLock::new(|| reproduce(&["--quick"]));
 
 /// The claims with results at which intervals overlap; with 64 base samples every order is decided.
 static FEW: LazyLock<Reproduction> =
@@ -131,17 +131,11 @@ fn reproduce_at_few_points_leaves_open_what_they_do_not_decide() {
 }
 
 #[test]
-fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_else() {
-    let (one, two) = (&*QUICK, reproduce(&["--quick", "--threads", "2"]));
-    assert_eq!(one.said, two.said);
+fn the_whole_has_all_verdicts_and_charts_and_its_page_leads_nowhere_else() {
+    let one = &*QUICK;
     assert_verdicts(one);
-    let (first, second) = (one.lasting(), two.lasting());
-    assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
-    for (name, bytes) in &first {
-        assert!(second[name] == *bytes, "{name} differs");
-    }
     let drawn =
-        |ending: &str| first.keys().filter(|name| name.starts_with("charts/") && name.ends_with(ending)).count();
+        |ending: &str| one.files.keys().filter(|name| name.starts_with("charts/") && name.ends_with(ending)).count();
     assert_eq!((drawn(".svg"), drawn(".png")), (33, 33));
     assert!(drawn(".csv") >= 33);
     let page = one.text("index.html");
@@ -182,10 +176,11 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
 }
 
 #[test]
-fn figures_alone_are_written_without_claims() {
-    let folder = tempfile::tempdir().unwrap();
-    let few = ["--base-samples", "32", "--charts", "svg"];
-    succeed(&[&["reproduce", "--quick", "--only", "figures", "--out", text(folder.path())], &few[..]].concat());
+fn figures_alone_have_no_claims_and_are_the_same_on_any_number_of_threads() {
+    let on = |threads: &str| {
+        reproduce(&["--quick", "--only", "figures", "--base-samples", "16", "--charts", "svg", "--threads", threads])
+    };
+    let (one, two) = (on("1"), on("2"));
     for (name, is_there) in [
         ("index.html", true),
         ("charts/chk-5.svg", true),
@@ -194,6 +189,12 @@ fn figures_alone_are_written_without_claims() {
         ("claims.csv", false),
         ("percentages.csv", false),
     ] {
-        assert_eq!(folder.path().join(name).is_file(), is_there, "{name}");
+        assert_eq!(one.files.contains_key(name), is_there, "{name}");
+    }
+    assert_eq!(one.said, two.said);
+    let (first, second) = (one.lasting(), two.lasting());
+    assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
+    for (name, bytes) in &first {
+        assert!(second[name] == *bytes, "{name} differs");
     }
 }

@@ -36,7 +36,7 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
     // S1(c) = 0.0058 (by quadrature): at 256 base samples most designs have no base point that shows it.
     let formula = "if(0.8*a+0.5*b+0.1*c > 0.7, 1, 0)";
     let mut held = 0;
-    for seed in 1..=10 {
+    for seed in 1..=5 {
         let result =
             analysed(formula, NORMAL, &format!("base_samples = 256\nseed = {seed}\n[analysis]\nsecond_order = true"));
         for factor in 0..3 {
@@ -54,7 +54,7 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
         held += usize::from(low <= 0.0058 && 0.0058 <= high);
     }
     // It was 18 of 40 (45 % over 200 seeds), and is 94 % over 200 seeds.
-    assert!(held >= 8, "{held} of 10 intervals hold S1(c)");
+    assert!(held >= 4, "{held} of 5 intervals hold S1(c)");
 }
 
 #[test]

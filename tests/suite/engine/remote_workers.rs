@@ -88,14 +88,14 @@ fn json(result: &StudyResult) -> serde_json::Value {
 
 #[test]
 fn remote_workers_change_no_bit() {
-    let dynamic = "afm.fidelity=dynamic";
+    let (dynamic, plain) = ("afm.fidelity=dynamic", "analysis.surrogate=off");
     for (name, overrides) in [
-        ("ishigami", &["design.base_samples=70000"][..]),
+        ("ishigami", &[plain, "design.base_samples=70000"][..]),
         ("ishigami", &["design.base_samples=3000", "design.replicates=3"]),
         ("ishigami", &["design.base_samples=2048", "analysis.intervals=percentile", "design.sampler=random"]),
-        ("sobol-g-target", &[]),
-        ("flood", &["design.base_samples=4096"]),
-        ("lugre-environmental", &[dynamic, "design.base_samples=32"]),
+        ("sobol-g-target", &[plain]),
+        ("flood", &[plain, "design.base_samples=4096"]),
+        ("lugre-environmental", &[dynamic, plain, "design.base_samples=32"]),
     ] {
         let study = load(name, overrides);
         let alone = json(&study.run().unwrap());

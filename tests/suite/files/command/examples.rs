@@ -72,7 +72,7 @@ fn a_shell_script_has_them() {
 
 #[test]
 fn a_simulator_with_input_and_output_files_has_them() {
-    let outputs = analysed("command-template", 128);
+    let outputs = analysed("command-template", 32);
     is_beam(&outputs);
     // 2.7e-3 g/mm^3 times 100 x 10 x 2 mm^3.
     assert!((outputs[2].mean.unwrap() - 5.4).abs() < 0.01, "{:?} {}", outputs[2].mean, outputs[2].unit);
