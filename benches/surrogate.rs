@@ -19,7 +19,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 const ROWS: [usize; 4] = [64, 100, 200, 500];
-const SEEDS: u64 = 8;
+const SEEDS: u64 = 4;
 
 /// Functions of the program; Ishigami's has few terms, the others are dense.
 const MODELS: [&str; 11] = [
