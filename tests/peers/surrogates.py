@@ -19,7 +19,7 @@ import openturns as ot
 
 WAYS = ["apportion", "chaos", "Gaussian process"]
 NORMS = [0.5, 0.75, 1.0]
-MAX_TERMS = 3000
+MAX_TERMS = 1000
 # Rows of a Gaussian process at most: the search for its lengths takes half a minute at 200.
 MAX_ROWS_OF_PROCESS = 100
 # Base samples for its indices: they err by less than it does.
@@ -98,17 +98,20 @@ def by_gaussian_process(x, y, laws):
             best = (likelihood, regression.getResult().getMetaModel())
     points = np.array(ot.LowDiscrepancyExperiment(ot.SobolSequence(), ot.JointDistribution([ot.Uniform(0, 1)] * (2 * d)), BASE_SAMPLES, True).generate())
     a, b = (np.column_stack([to_scores(half[:, j], law) for j, law in enumerate(laws)]) for half in (points[:, :d], points[:, d:]))
-    g = lambda rows: np.array(best[1](rows)).ravel()
-    y_a, y_b = g(a), g(b)
+    y_a, y_b = values(best[1], a), values(best[1], b)
     mean, variance = np.mean([y_a, y_b]), np.var(np.concatenate([y_a, y_b]))
     first, total = [], []
     for j in range(d):
         mixed = a.copy()
         mixed[:, j] = b[:, j]
-        y_ab = g(mixed)
+        y_ab = values(best[1], mixed)
         first.append(np.mean((y_b - mean) * (y_ab - y_a)) / variance)
         total.append(np.mean((y_a - y_ab) ** 2) / 2 / variance)
     return first, total
+
+
+def values(function, rows):
+    return np.array(function(rows)).ravel()
 
 
 def to_scores(u, law):
@@ -161,14 +164,17 @@ def geometric(values):
     return math.exp(np.mean(np.log(np.maximum(values, 1e-16))))
 
 
+def pair(two):
+    return f"{two[0]:.1e}, {two[1]:.1e}"
+
+
 def page(found, seeds):
     """The page of functions by rows, as `of_function` has them."""
-    pair = lambda two: f"{two[0]:.1e}, {two[1]:.1e}"
     lines = [
         "# Surrogates from few rows, compared with OpenTURNS",
         "",
         "Root mean square errors of first-order and of total indices from the same rows, those of a Latin hypercube, with the",
-        f"distributions of the inputs known; {seeds} seeds. OpenTURNS {ot.__version__}: sparse chaos expansions by least angles, of the degree and",
+        f"distributions of the inputs known; {seeds} seeds. OpenTURNS {ot.__version__}: sparse chaos expansions by least angles on at most 1000 terms, of the degree and",
         "hyperbolic norm (.5, .75, 1) of the smallest corrected leave-one-out error; a Gaussian process with a length for each factor, of the",
         "kernel of three (squared exponential, Matern 3/2, 5/2) with the largest likelihood (up to 100 rows). Written by `cargo bench --bench surrogate --",
         "FOLDER` and `python tests/peers/surrogates.py FOLDER`.",

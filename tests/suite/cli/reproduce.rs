@@ -23,8 +23,11 @@ struct Reproduction {
 static QUICK: LazyLock<Reproduction> = LazyLock::new(|| reproduce(&["--quick"]));
 
 /// The claims with results at which intervals overlap; with 64 base samples every order is decided.
-static FEW: LazyLock<Reproduction> =
-    LazyLock::new(|| reproduce(&["--quick", "--only", "claims", "--base-samples", "32"]));
+static FEW: LazyLock<Reproduction> = LazyLock::new(|| few("claims", "1"));
+
+fn few(part: &str, threads: &str) -> Reproduction {
+    reproduce(&["--quick", "--only", part, "--base-samples", "32", "--threads", threads])
+}
 
 fn reproduce(arguments: &[&str]) -> Reproduction {
     let folder = tempfile::tempdir().unwrap();
@@ -176,11 +179,8 @@ fn the_whole_has_all_verdicts_and_charts_and_its_page_leads_nowhere_else() {
 }
 
 #[test]
-fn figures_alone_have_no_claims_and_are_the_same_on_any_number_of_threads() {
-    let on = |threads: &str| {
-        reproduce(&["--quick", "--only", "figures", "--base-samples", "16", "--charts", "svg", "--threads", threads])
-    };
-    let (one, two) = (on("1"), on("2"));
+fn both_parts_are_the_same_on_any_number_of_threads_and_figures_alone_have_no_claims() {
+    let figures = few("figures", "1");
     for (name, is_there) in [
         ("index.html", true),
         ("charts/chk-5.svg", true),
@@ -189,12 +189,14 @@ fn figures_alone_have_no_claims_and_are_the_same_on_any_number_of_threads() {
         ("claims.csv", false),
         ("percentages.csv", false),
     ] {
-        assert_eq!(one.files.contains_key(name), is_there, "{name}");
+        assert_eq!(figures.files.contains_key(name), is_there, "{name}");
     }
-    assert_eq!(one.said, two.said);
-    let (first, second) = (one.lasting(), two.lasting());
-    assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
-    for (name, bytes) in &first {
-        assert!(second[name] == *bytes, "{name} differs");
+    for (one, two) in [(&*FEW, few("claims", "2")), (&figures, few("figures", "2"))] {
+        assert_eq!(one.said, two.said);
+        let (first, second) = (one.lasting(), two.lasting());
+        assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
+        for (name, bytes) in &first {
+            assert!(second[name] == *bytes, "{name} differs");
+        }
     }
 }

@@ -93,7 +93,7 @@ fn remote_workers_change_no_bit() {
         ("ishigami", &[plain, "design.base_samples=70000"][..]),
         ("ishigami", &["design.base_samples=3000", "design.replicates=3"]),
         ("ishigami", &["design.base_samples=2048", "analysis.intervals=percentile", "design.sampler=random"]),
-        ("sobol-g-target", &[plain]),
+        ("sobol-g-target", &[]),
         ("flood", &[plain, "design.base_samples=4096"]),
         ("lugre-environmental", &[dynamic, plain, "design.base_samples=32"]),
     ] {
