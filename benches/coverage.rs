@@ -306,7 +306,7 @@ fn tables(names: &[&str], cells: &BTreeMap<(usize, usize, u32), Cell>, seeds: u6
         "# Do the intervals hold?\n\nWritten by `cargo bench --bench coverage`: {seeds} seeds, first-order and total indices of every active factor. \
          `coverage.csv` has every cell, and for each the index that is covered least.\n\n\
          Measured without surrogates, by the default formulas; coverage with surrogates is in \
-         [`accuracy/surrogate.md`](accuracy/surrogate.md).\n\n\
+         [functions that no constant was fitted to](../accuracy/functions.md).\n\n\
          **Coverage** of the nominal 95 % interval; **width** over the ideal, 2 x 1.96 x the true standard error of one net of the same \
          number of base samples N; **error**: true standard error of the estimate over that of one net. A share of {seeds} seeds has \
          a standard error of its own: {:.3} for one index, less for the mean over several.\n\nOutputs with rare, large values, on which \

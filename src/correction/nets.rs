@@ -95,15 +95,17 @@ impl AllContributions<'_> {
         EstimateWithInfluences { estimate: mean + of_low, parts, low, beyond: extrapolation }
     }
 
-    /// Returns the indices with the contributions `columns`.
+    /// Returns the indices with the contributions `columns`, which have the same error `at_steps`.
     fn indices(
         &self,
         variance: &EstimateWithInfluences,
         extrapolation: &[f64],
+        at_steps: f64,
         columns: impl Fn(&Contributions) -> &[Vec<f64>],
     ) -> Vec<EstimateWithInfluences> {
         let errors = extrapolation.iter().enumerate();
-        errors.map(|(k, &error)| self.mean(error, |net| &columns(net)[k]).over(variance)).collect()
+        let indices = errors.map(|(k, &error)| self.mean(error, |net| &columns(net)[k]).over(variance));
+        indices.map(|index| EstimateWithInfluences { beyond: index.beyond + at_steps, ..index }).collect()
     }
 }
 
@@ -122,15 +124,17 @@ pub(super) fn estimates(corrected: &Corrected, low: &[Contributions], Scale { me
     let all = AllContributions { nets, low };
     let variance = all.mean(extrapolation.variance, |net| &net.variance);
     let scaled_mean = all.mean(extrapolation.mean, |net| &net.mean);
-    let [first, second] = [0, 1].map(|form| all.indices(&variance, &extrapolation.total, |net| &net.total[form]));
+    let at_steps = extrapolation.at_steps / variance.estimate;
+    let [first, second] =
+        [0, 1].map(|form| all.indices(&variance, &extrapolation.total, at_steps, |net| &net.total[form]));
     let weight = weight_of_second(&first, &second);
     let total =
         first.iter().zip(&second).map(|(a, b)| EstimateWithInfluences::combined(&[(1.0 - weight, a), (weight, b)]));
-    let first_order = all.indices(&variance, &extrapolation.first_order, |net| &net.first_order);
+    let first_order = all.indices(&variance, &extrapolation.first_order, at_steps, |net| &net.first_order);
     let effects = first_order.into_iter().zip(total).map(|(first_order, total)| IndexPair { first_order, total });
     SurrogateEstimates {
         effects: effects.collect(),
-        pairs: all.indices(&variance, &extrapolation.pairs, |net| &net.pairs),
+        pairs: all.indices(&variance, &extrapolation.pairs, at_steps, |net| &net.pairs),
         mean: EstimateWithInfluences::linear(mean + sd * scaled_mean.estimate, &[(sd, &scaled_mean)]),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),

@@ -95,6 +95,12 @@ impl Tail {
         departure
     }
 
+    /// Computes the mean square of the departure of the two sides of a step from each other.
+    fn departure_squared(&self, group: &Group) -> f64 {
+        let by = group.value(&self.values, 0) - group.value(&self.tangents, 0);
+        self.weights[0] * by * by
+    }
+
     /// Computes the departure of the tangent from its value at the edge.
     fn rise(&self, group: &Group) -> Departure {
         let mut departure = Departure::default();
@@ -147,6 +153,8 @@ pub(crate) struct ExtrapolationError {
     pub mean: f64,
     /// Error of the variance.
     pub variance: f64,
+    /// What every effect may gain or lose if the places of steps depend on other factors, within their widths.
+    pub at_steps: f64,
     /// Error of V S of every swap.
     pub first_order: Vec<f64>,
     /// Error of V ST of every swap.
@@ -162,6 +170,7 @@ impl ExtrapolationError {
         let mut all = Self {
             mean: 0.0,
             variance: 0.0,
+            at_steps: 0.0,
             first_order: vec![0.0; effects.swaps.len()],
             total: vec![0.0; effects.swaps.len()],
             pairs: vec![0.0; effects.pairs.len()],
@@ -181,6 +190,7 @@ impl ExtrapolationError {
             if tails.is_empty() && steps.is_empty() {
                 continue;
             }
+            let mut open = vec![0.0; steps.len()];
             let of_factor = (factor, Term::new())..(factor + 1, Term::new());
             for ((_, others), group) in groups.iter().flat_map(|groups| groups.range(of_factor.clone())) {
                 let highest = group.highest(0.0);
@@ -200,7 +210,10 @@ impl ExtrapolationError {
                 }
                 let square = weight * tail.square + share * (step.square + rest * rise.square);
                 all.add(&with(others, factor), square, effects);
+                let of_steps = open.iter_mut().zip(&steps);
+                of_steps.for_each(|(open, step)| *open += share * step.departure_squared(group));
             }
+            all.at_steps = open.into_iter().fold(all.at_steps, libm::hypot);
         }
         all
     }

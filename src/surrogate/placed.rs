@@ -22,6 +22,9 @@ const SHOWN: f64 = 0.01;
 /// Gain in squares by another place, in those of the noise, that is clear.
 const CLEAR: f64 = 20.0;
 
+/// The same up to which another place is likely, with a probability of 5 %.
+const LIKELY: f64 = 3.84;
+
 /// A row near a step.
 struct Row {
     u: f64,
@@ -86,7 +89,7 @@ fn values(expansion: &Expansion, families: &[Family], columns: &[Vec<f64>]) -> V
 }
 
 /// Returns the place of a step between the two of `rows`, in rising order, that show it and leave least if it is
-/// between them, and their distance.
+/// between them, and the distance of the rows between which it is likely.
 fn place(rows: &[Row], at: f64, width: f64) -> (f64, f64) {
     let largest = rows.iter().map(|row| row.step * row.step).fold(0.0, f64::max);
     let shown: Vec<&Row> = rows.iter().filter(|row| row.step * row.step > SHOWN * largest).collect();
@@ -97,22 +100,24 @@ fn place(rows: &[Row], at: f64, width: f64) -> (f64, f64) {
     });
     let squares: Vec<(f64, f64)> = squares.collect();
     let noise = squares.iter().map(|(above, below)| above.min(*below)).sum::<f64>() / squares.len().max(1) as f64;
-    let (mut sum, mut now, mut best, mut count) = (0.0, 0.0, 0.0, 0);
-    for (k, (above, below)) in squares.iter().enumerate() {
-        sum += below - above;
-        now = if shown[k].u > at { now } else { sum };
-        if sum < best && shown.get(k + 1).is_none_or(|next| next.u > shown[k].u) {
-            (best, count) = (sum, k + 1);
-        }
-    }
-    if count == 0 || count == shown.len() || now - best < CLEAR * noise {
+    // What is left if so many rows are below it.
+    let mut sums = vec![0.0];
+    squares.iter().for_each(|(above, below)| sums.push(sums[sums.len() - 1] + below - above));
+    let between = (1..shown.len()).filter(|count| shown[count - 1].u < shown[*count].u);
+    let now = shown.partition_point(|row| row.u <= at);
+    let Some(best) = between.clone().min_by(|a, b| sums[*a].total_cmp(&sums[*b])) else { return (at, width) };
+    let count = if sums[now] - sums[best] > CLEAR * noise { best } else { now };
+    if count == 0 || count == shown.len() {
         return (at, width);
     }
+    let mut likely = between.filter(|other| sums[*other] <= sums[count] + LIKELY * noise);
+    let first = likely.next().unwrap_or(count);
+    let width_left = shown[likely.next_back().unwrap_or(first)].u - shown[first - 1].u;
     let (low, high) = (shown[count - 1].u, shown[count].u);
     // The fit has placed it too, together with the coefficients.
     let (first, last) = (low.max(at - width / 2.0), high.min(at + width / 2.0));
     let (first, last) = if first < last { (first, last) } else { (low, high) };
-    (first + (last - first) / 2.0, high - low)
+    (first + (last - first) / 2.0, width_left)
 }
 
 #[cfg(test)]

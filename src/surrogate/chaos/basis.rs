@@ -47,14 +47,15 @@ impl Factor {
         if self.knots.is_empty() {
             return self.family.clone();
         }
-        let widths = self.knots.iter().map(|knot| self.gap(knot.u)).collect();
+        let widths = self.knots.iter().map(|knot| self.gap(knot.u, |_| true)).collect();
         Family::Stepped(Box::new(Stepped::new(&self.family, self.degree(), self.knots.clone(), widths)))
     }
 
-    /// Returns the distance of the rows on either side of a place.
-    pub fn gap(&self, at: f64) -> f64 {
-        let above = self.places.iter().copied().filter(|u| *u > at).fold(1.0, f64::min);
-        above - self.places.iter().copied().filter(|u| *u < at).fold(0.0, f64::max)
+    /// Returns the distance of the rows on either side of a place, of those that are `shown`.
+    pub fn gap(&self, at: f64, shown: impl Fn(usize) -> bool) -> f64 {
+        let places = self.places.iter().enumerate().filter(|(row, _)| shown(*row)).map(|(_, u)| *u);
+        let above = places.clone().filter(|u| *u > at).fold(1.0, f64::min);
+        above - places.filter(|u| *u < at).fold(0.0, f64::max)
     }
 
     /// Returns the number of polynomials.
@@ -90,7 +91,7 @@ impl Factor {
     }
 
     /// Returns the values of the function with this index, from 1: of a polynomial, or of a knot after them.
-    fn function(&self, index: usize) -> &[f64] {
+    pub fn function(&self, index: usize) -> &[f64] {
         let polynomials = self.polynomials.len();
         if index <= polynomials { &self.polynomials[index - 1] } else { &self.knot_values[index - polynomials - 1] }
     }

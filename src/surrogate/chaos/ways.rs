@@ -191,6 +191,17 @@ impl Listed {
         self.columns.combined(coefficients)
     }
 
+    /// Returns by how much the sum rises at a step of a factor, at the rows.
+    pub fn jumps(&self, coefficients: &[f64], factor: usize, number: usize) -> Vec<f64> {
+        let of = &self.prior.basis.factors[factor];
+        let index = of.degree() + 1 + number;
+        let own = self.terms.iter().zip(coefficients);
+        let own: Vec<f64> = own.map(|(term, c)| if term.contains(&(factor, index)) { *c } else { 0.0 }).collect();
+        let step = of.function(index);
+        let ends = step.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(*s), high.max(*s)]);
+        self.combined(&own).iter().zip(step).map(|(value, s)| value / s * (ends[1] - ends[0])).collect()
+    }
+
     /// Returns the same with a mean at some of them.
     fn predicted(&self, coefficients: &[f64], mean: f64, rows: &[usize]) -> Vec<f64> {
         let all = self.combined(coefficients);

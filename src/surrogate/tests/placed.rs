@@ -13,6 +13,10 @@ fn a_step_lies_between_the_rows_that_show_it() {
         .collect();
     let (at, width) = place(&rows, 0.72, 1e-3);
     assert!((at - 0.7).abs() <= 2.5e-3 && (width - 5e-3).abs() < 1e-12, "{at} {width}");
+    // A step that is at the right place already is known as well.
+    let right: Vec<Row> = rows.iter().map(|row| Row { left: 0.0, ..*row }).collect();
+    let (at, width) = place(&right, 0.701, 0.02);
+    assert!((at - 0.7).abs() <= 5e-3 && (width - 5e-3).abs() < 1e-12, "{at} {width}");
     // Rows that all lie on one side do not say where it is.
     assert_eq!(place(&rows[..50], 0.72, 1e-3), (0.72, 1e-3));
 }

@@ -58,6 +58,30 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
 }
 
 #[test]
+fn a_step_lies_anywhere_between_the_rows_that_show_it() {
+    // At places that depend on another factor (indices to 2e-4), and in a part of the rows, which are plain.
+    let oblique = [[0.8306, 0.8418], [0.0646, 0.0992], [0.0702, 0.0936]];
+    let (p, all) = ([0.6, 0.7, 0.8], 0.336);
+    let corner = p.map(|p| [all / p * all * (1.0 - p), all * (1.0 - p)].map(|v| v / (all * (1.0 - all))));
+    let cases = [
+        ("if(a > 0.5 + 0.02*b, 1, 0) + b*c", "base_samples = 32", oblique),
+        ("(a > 0.4)*(b > 0.3)*(c > 0.2)", "runs = 200", corner),
+    ];
+    for (formula, length, exact) in cases {
+        let mut held = 0;
+        for seed in 1..=4 {
+            let result = analysed(formula, UNIFORM, &format!("{length}\nseed = {seed}"));
+            for (factor, exact) in exact.iter().enumerate() {
+                let bounds = bounds(&result, factor).into_iter().zip(exact);
+                held +=
+                    bounds.filter(|((low, _, high), exact)| low - 2e-4 <= **exact && **exact <= high + 2e-4).count();
+            }
+        }
+        assert!(held >= 22, "{held} of 24 intervals of {formula}");
+    }
+}
+
+#[test]
 fn a_factor_without_effect_has_an_interval_of_width_0() {
     let result = analysed("if(a+b > 1, 1, 0)", UNIFORM, "base_samples = 256\n[analysis]\nsecond_order = true");
     assert_eq!(bounds(&result, 2), [(0.0, 0.0, 0.0); 2]);

@@ -111,7 +111,7 @@ fn intervals_contain_the_exact_values_of_a_rough_function() {
     for seed in 0..16 {
         let columns = random(exact.total.len(), 300, seed);
         let of = output(&columns, evaluated(&columns, |x| function.value(x)), Some(&units(exact.total.len())));
-        assert!((of.explained - (1.0 - of.unknown)).abs() < 1e-12 && of.serves == (of.explained >= 0.9));
+        assert!((of.explained - (1.0 - of.unknown)).abs() < 1e-12 && of.serves == (of.explained >= 0.9), "{of:?}");
         for index in &of.indices {
             let interval = index.total.interval.unwrap();
             assert!(interval.high - index.total.estimate >= of.unknown);

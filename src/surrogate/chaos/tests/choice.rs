@@ -67,7 +67,7 @@ fn a_step_is_one_function() {
         let of = fitted(3, rows, &Family::Legendre, function);
         assert_eq!(of.basis().factors[0].knots().len(), 1);
         let error = error(&of, &first_order, &total);
-        assert!(error < limit && error < of.half_width(), "{rows}: {error:e} {:e}", of.half_width());
+        assert!(error < limit && error < of.unseen(), "{rows}: {error:e} {:e}", of.unseen());
     }
 }
 
