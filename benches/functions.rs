@@ -19,8 +19,8 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use slow::Slow;
 
-const SEEDS: u64 = 8;
-const SIZES: [u64; 8] = [32, 64, 128, 256, 512, 1024, 2048, 4096];
+const SEEDS: u64 = 20;
+const SIZES: [u64; 4] = [32, 128, 512, 2048];
 const ACCURACIES: [f64; 2] = [0.05, 0.01];
 /// The largest number of runs of a program that a search may take.
 const MAX_RUNS: u64 = 100_000;

@@ -203,7 +203,7 @@ def page(found, seeds):
             lines.append(f"| {rows} | " + " | ".join(cells) + " |")
         lines.append("")
     for rows in sizes:
-        lines += [f"## Each function at {rows} rows", "", "In brackets the median seconds.", ""]
+        lines += [f"## Each function at {rows} rows", "", "In brackets the median seconds on one core; Morris's are for the list of terms of 20 factors.", ""]
         ways = WAYS[: len(next(iter(found[rows].values()))["errors"])]
         lines += ["| function | " + " | ".join(ways) + " | coverage |", "|---|" + "---|" * (len(ways) + 1)]
         for name, entry in found[rows].items():
