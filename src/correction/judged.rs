@@ -4,6 +4,7 @@ use apportion_base::sum::{add_scaled, mean, product};
 
 use super::held_out::{HeldOut, Spread};
 use super::plain::PlainFit;
+use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::{Effects, is_interaction, touches, within};
 use crate::uncertainty::{Estimate, Interval, Judgement, NORMAL_QUANTILE, StandardError};
 
@@ -106,7 +107,9 @@ impl<'a> Judged<'a> {
         let half_widths = self.held_out.half_widths(&kind.iter().map(spread).collect::<Vec<Spread>>());
         let all = kind.iter().zip(half_widths).map(|(of, half)| {
             let value = of.variance / of.whole;
-            let tails = (of.beyond + value * self.fit.extrapolation.variance) / self.whole();
+            let ExtrapolationError { variance, of_any, .. } = self.fit.extrapolation;
+            // Where no row is, the surrogate may claim any variance.
+            let tails = (of.beyond + value * variance) / self.whole() + of_any / self.whole().min(1.0);
             let centre = mean(&of.of_parts);
             about(value, half + tails, of.of_parts.iter().map(|share| centre - share).collect())
         });

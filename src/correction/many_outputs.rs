@@ -164,6 +164,7 @@ impl Together<'_> {
         }
         let (fit, best) = best?;
         let scale = self.outputs[output].scale;
+        let best = best.with_unseen_levels(&fit.nets, &self.complete[output], &fit.families);
         let all = estimates(&best, &[], scale);
         let fitted = CrossFitted { scale, families: fit.families.clone(), of_nets: best.expansions };
         Some(SurrogateEstimates { fitted: Some(fitted), ..all })

@@ -6,8 +6,10 @@ use super::estimates::SurrogateEstimates;
 use super::influenced::EstimateWithInfluences;
 use crate::design::Design;
 use crate::effect::IndexPair;
+use crate::surrogate::combinations::{Rows, unseen_combinations};
 use crate::surrogate::extrapolation::ExtrapolationError;
-use crate::surrogate::outputs::Scale;
+use crate::surrogate::net::Net;
+use crate::surrogate::outputs::{Scale, ScaledOutput};
 use crate::surrogate::{Effects, Expansion, Family, leading_terms};
 use crate::uncertainty::{PartInfluences, RULE_OF_THREE};
 
@@ -45,6 +47,20 @@ impl Corrected {
         let first = expansions.first().into_iter().flat_map(Expansion::varying);
         let extrapolation = extrapolation.with_rare_counts(first, unseen, families, effects);
         Self { nets, expansions, extrapolation }
+    }
+
+    /// Adds the error of combinations of levels that none of the `rows`, with the `outputs` of every net, has.
+    pub fn with_unseen_levels(self, rows: &[Net], outputs: &ScaledOutput, families: &[Family]) -> Self {
+        let runs = rows.iter().enumerate().flat_map(|(k, net)| (0..net.runs()).map(move |run| (k, net, run)));
+        let rows = runs.map(|(k, net, run)| Rows {
+            quantiles: (0..families.len()).map(|factor| net.quantiles(run, factor)).collect(),
+            outputs: &outputs.nets[k].runs[run],
+            parts: vec![k; net.points()],
+        });
+        let rows: Vec<Rows> = rows.collect();
+        let terms = self.expansions.iter().flat_map(Expansion::varying);
+        let unseen = unseen_combinations(terms, self.residual(), families, &rows);
+        Self { extrapolation: self.extrapolation.with_any(unseen), ..self }
     }
 
     /// Returns the mean square of the residuals.
@@ -95,17 +111,17 @@ impl AllContributions<'_> {
         EstimateWithInfluences { estimate: mean + of_low, parts, low, beyond: extrapolation }
     }
 
-    /// Returns the indices with the contributions `columns`, which have the same error `at_steps`.
+    /// Returns the indices with the contributions `columns`, which have the same error `of_any`.
     fn indices(
         &self,
         variance: &EstimateWithInfluences,
         extrapolation: &[f64],
-        at_steps: f64,
+        of_any: f64,
         columns: impl Fn(&Contributions) -> &[Vec<f64>],
     ) -> Vec<EstimateWithInfluences> {
         let errors = extrapolation.iter().enumerate();
         let indices = errors.map(|(k, &error)| self.mean(error, |net| &columns(net)[k]).over(variance));
-        indices.map(|index| EstimateWithInfluences { beyond: index.beyond + at_steps, ..index }).collect()
+        indices.map(|index| EstimateWithInfluences { beyond: index.beyond + of_any, ..index }).collect()
     }
 }
 
@@ -124,17 +140,17 @@ pub(super) fn estimates(corrected: &Corrected, low: &[Contributions], Scale { me
     let all = AllContributions { nets, low };
     let variance = all.mean(extrapolation.variance, |net| &net.variance);
     let scaled_mean = all.mean(extrapolation.mean, |net| &net.mean);
-    let at_steps = extrapolation.at_steps / variance.estimate;
+    let of_any = extrapolation.of_any / variance.estimate.min(1.0);
     let [first, second] =
-        [0, 1].map(|form| all.indices(&variance, &extrapolation.total, at_steps, |net| &net.total[form]));
+        [0, 1].map(|form| all.indices(&variance, &extrapolation.total, of_any, |net| &net.total[form]));
     let weight = weight_of_second(&first, &second);
     let total =
         first.iter().zip(&second).map(|(a, b)| EstimateWithInfluences::combined(&[(1.0 - weight, a), (weight, b)]));
-    let first_order = all.indices(&variance, &extrapolation.first_order, at_steps, |net| &net.first_order);
+    let first_order = all.indices(&variance, &extrapolation.first_order, of_any, |net| &net.first_order);
     let effects = first_order.into_iter().zip(total).map(|(first_order, total)| IndexPair { first_order, total });
     SurrogateEstimates {
         effects: effects.collect(),
-        pairs: all.indices(&variance, &extrapolation.pairs, at_steps, |net| &net.pairs),
+        pairs: all.indices(&variance, &extrapolation.pairs, of_any, |net| &net.pairs),
         mean: EstimateWithInfluences::linear(mean + sd * scaled_mean.estimate, &[(sd, &scaled_mean)]),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),

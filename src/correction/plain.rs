@@ -6,7 +6,8 @@ use super::surrogate_use::SurrogateUse;
 use crate::design::Design;
 use crate::effect::{Effect, EffectQuantities, IndexPair, Layout, OfPair, Quantities};
 use crate::estimate::PointOutputs;
-use crate::surrogate::chaos::{Chaos, Factor, degree_at};
+use crate::surrogate::chaos::{Basis, Chaos, Factor, degree_at};
+use crate::surrogate::combinations::{Rows, unseen_combinations};
 use crate::surrogate::extrapolation::ExtrapolationError;
 use crate::surrogate::outputs::{Scale, ScaledOutput};
 use crate::surrogate::{Effects, Expansion, Family, Term, choices, leading_terms};
@@ -34,8 +35,13 @@ impl PlainFit {
         let smooth = chaos.terms().filter(|(term, _)| term.iter().all(|(input, k)| *k <= factors[*input].degree()));
         let (terms, coefficients): (Vec<Term>, Vec<f64>) = smooth.map(|(term, c)| (term.clone(), c)).unzip();
         let expansions = [Expansion { terms: terms.into(), coefficients }];
+        let Basis { parts, .. } = chaos.basis();
+        let parts = (0..z.len()).map(|row| parts.get(row).copied().unwrap_or(usize::MAX)).collect();
+        let rows = [Rows { quantiles: values.iter().map(|values| &values[..]).collect(), outputs: z, parts }];
+        let unseen = unseen_combinations(chaos.terms(), chaos.rest, families, &rows);
         let extrapolation = ExtrapolationError::new(&expansions, families, z.len() as u64, chaos.rest, effects)
-            .with_rare_counts(chaos.terms(), 1.0, families, effects);
+            .with_rare_counts(chaos.terms(), 1.0, families, effects)
+            .with_any(unseen);
         let [expansion] = expansions;
         Self { chaos, expansion, extrapolation }
     }

@@ -153,8 +153,9 @@ pub(crate) struct ExtrapolationError {
     pub mean: f64,
     /// Error of the variance.
     pub variance: f64,
-    /// What every effect may gain or lose if the places of steps depend on other factors, within their widths.
-    pub at_steps: f64,
+    /// What any effect may gain or lose: where the places of steps depend on other factors, within their widths, and at
+    /// combinations of levels that no row has.
+    pub of_any: f64,
     /// Error of V S of every swap.
     pub first_order: Vec<f64>,
     /// Error of V ST of every swap.
@@ -170,7 +171,7 @@ impl ExtrapolationError {
         let mut all = Self {
             mean: 0.0,
             variance: 0.0,
-            at_steps: 0.0,
+            of_any: 0.0,
             first_order: vec![0.0; effects.swaps.len()],
             total: vec![0.0; effects.swaps.len()],
             pairs: vec![0.0; effects.pairs.len()],
@@ -213,7 +214,7 @@ impl ExtrapolationError {
                 let of_steps = open.iter_mut().zip(&steps);
                 of_steps.for_each(|(open, step)| *open += share * step.departure_squared(group));
             }
-            all.at_steps = open.into_iter().fold(all.at_steps, libm::hypot);
+            all.of_any = open.into_iter().fold(all.of_any, libm::hypot);
         }
         all
     }
@@ -230,6 +231,11 @@ impl ExtrapolationError {
         let of_counts = terms.filter(|(term, _)| term.iter().any(|(factor, _)| families[*factor].is_count()));
         of_counts.for_each(|(term, b)| self.add(term, most.min(RARE_COUNTS) * b * b, effects));
         self
+    }
+
+    /// Adds an error of any effect.
+    pub fn with_any(self, error: f64) -> Self {
+        Self { of_any: self.of_any + error, ..self }
     }
 
     fn add(&mut self, term: &[(usize, usize)], error: f64, effects: &Effects) {

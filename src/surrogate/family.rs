@@ -71,6 +71,13 @@ impl Family {
         matches!(self.own(), Self::Orthogonal(polynomials) if polynomials.is_count())
     }
 
+    /// Returns the number of levels of a discrete factor if the polynomials are as many.
+    pub fn levels(&self) -> Option<usize> {
+        let Self::Orthogonal(polynomials) = self.own() else { return None };
+        let levels = polynomials.levels_among(f64::INFINITY)?;
+        (!polynomials.is_count() && levels == polynomials.degree() + 1).then_some(levels)
+    }
+
     /// Returns the family with the polynomials `by` instead of its own if it is without bounds.
     pub fn replaced(&self, by: Self) -> Self {
         match self.is_unbounded() && *self != by && self.degree() > 0 {

@@ -2,6 +2,7 @@
 
 pub(crate) mod chaos;
 mod choice;
+pub(crate) mod combinations;
 mod cross_fit;
 pub(crate) mod expansion;
 pub(crate) mod extrapolation;

@@ -338,8 +338,13 @@ impl Listed {
             let spread = squares.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / rows;
             let excess = self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt();
             let set = members.first().map_or(&[][..], |j| &self.sets[self.subsets[*j]]);
-            let has_counts = set.iter().any(|factor| factors[*factor].family().is_count());
-            if has_counts { excess.max(0.0) } else { share * excess.max(0.0) }
+            // What rows of other levels show tells nothing of a level.
+            let mut families = set.iter().map(|factor| factors[*factor].family());
+            if families.any(|family| family.is_count() || family.levels().is_some()) {
+                excess.max(0.0)
+            } else {
+                share * excess.max(0.0)
+            }
         });
         of_subsets.collect::<Vec<f64>>().iter().sum()
     }

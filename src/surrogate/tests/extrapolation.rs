@@ -49,8 +49,8 @@ fn steps_may_lie_anywhere_within_their_width() {
         0.3 * (above[0][0] - below[0][0]) + 0.8 * (above[6][0] - below[6][0])
     };
     let open = 0.01 / 12.0f64.sqrt() * rise * rise;
-    assert!((error[1].at_steps / open - 1.0).abs() < 1e-9, "{} {open}", error[1].at_steps);
-    assert_eq!([error[0].variance, error[0].at_steps], [0.0; 2]);
+    assert!((error[1].of_any / open - 1.0).abs() < 1e-9, "{} {open}", error[1].of_any);
+    assert_eq!([error[0].variance, error[0].of_any], [0.0; 2]);
     assert!(exact > 1e-4 && (error[1].total[0] / exact - 1.0).abs() < 1e-9, "{} {exact}", error[1].total[0]);
     assert_eq!(error[1].total[1], 0.0);
 }
