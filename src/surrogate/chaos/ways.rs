@@ -327,7 +327,7 @@ impl Listed {
 
     /// Returns the variance that no rows show: of each subset of factors what exceeds the mean square of its terms at
     /// the rows by more than chance. It comes from where there are none. A `share` of it counts, and all of what is due to
-    /// counts, where polynomials continue nothing.
+    /// counts and levels, where polynomials continue nothing.
     pub fn unseen(&self, coefficients: &[f64], share: f64) -> f64 {
         let (rows, factors) = (self.prior.rows as f64, &self.prior.basis.factors);
         let of_subsets = self.members(coefficients).into_par_iter().map(|members| {
@@ -338,7 +338,7 @@ impl Listed {
             let spread = squares.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / rows;
             let excess = self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt();
             let set = members.first().map_or(&[][..], |j| &self.sets[self.subsets[*j]]);
-            // What rows of other levels show tells nothing of a level.
+            // What rows at other levels show tells nothing of a level.
             let mut families = set.iter().map(|factor| factors[*factor].family());
             if families.any(|family| family.is_count() || family.levels().is_some()) {
                 excess.max(0.0)
