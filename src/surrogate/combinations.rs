@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::family::{Family, polynomials};
 use super::terms::Term;
 use crate::uncertainty::RULE_OF_THREE;
+use apportion_base::sum::range;
 
 /// Number of factors with levels in a term from which their combinations matter: those of fewer are among the rows. All do
 /// for an output of two values, which is a product of high order.
@@ -28,15 +29,15 @@ pub(crate) fn unseen_combinations<'a>(
     families: &[Family],
     rows: &[Rows],
 ) -> f64 {
-    let outputs = || rows.iter().flat_map(|rows| rows.outputs);
-    let (low, high) = outputs().fold((0.0, 0.0), |(low, high): (f64, f64), y| (low.min(*y), high.max(*y)));
-    let has_levels = |factor: &usize| families[*factor].levels().is_some();
-    let members = |term: &Term| term.iter().map(|(factor, _)| *factor).filter(has_levels).collect::<Vec<_>>();
-    let factors: BTreeSet<usize> = if outputs().all(|y| *y == low || *y == high) {
-        (0..families.len()).filter(has_levels).collect()
+    let outputs: Vec<f64> = rows.iter().flat_map(|rows| rows.outputs).copied().collect();
+    let (low, high) = range(&outputs);
+    let counts: Vec<Option<usize>> = families.iter().map(Family::levels).collect();
+    let factors: BTreeSet<usize> = if outputs.iter().all(|y| *y == low || *y == high) {
+        (0..families.len()).filter(|factor| counts[*factor].is_some()).collect()
     } else {
-        let large = terms.filter(|(_, b)| b * b > rest).map(|(term, _)| members(term));
-        large.filter(|members| members.len() >= MIN_FACTORS).flatten().collect()
+        let large = terms.filter(|(_, b)| b * b > rest).map(|(term, _)| term.iter().map(|(factor, _)| *factor));
+        let members = large.map(|term| term.filter(|factor| counts[*factor].is_some()).collect::<Vec<_>>());
+        members.filter(|members| members.len() >= MIN_FACTORS).flatten().collect()
     };
     if factors.is_empty() {
         return 0.0;
@@ -52,7 +53,7 @@ pub(crate) fn unseen_combinations<'a>(
             *only = only.filter(|only| only == part);
         }
     }
-    let all: f64 = factors.iter().filter_map(|factor| families[*factor].levels()).map(|levels| levels as f64).product();
+    let all: f64 = factors.iter().filter_map(|factor| counts[*factor]).map(|levels| levels as f64).product();
     let unseen = all - seen.len() as f64;
     if unseen < 1.0 {
         return 0.0;

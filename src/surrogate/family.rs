@@ -71,6 +71,11 @@ impl Family {
         matches!(self.own(), Self::Orthogonal(polynomials) if polynomials.is_count())
     }
 
+    /// Returns whether its polynomials are of few levels.
+    pub fn has_levels(&self) -> bool {
+        matches!(self.own(), Self::Orthogonal(polynomials) if polynomials.has_levels())
+    }
+
     /// Returns the number of levels of a discrete factor if the polynomials are as many.
     pub fn levels(&self) -> Option<usize> {
         let Self::Orthogonal(polynomials) = self.own() else { return None };

@@ -339,12 +339,8 @@ impl Listed {
             let excess = self.variance(&members, coefficients) - mean - CHANCE * (spread / rows).sqrt();
             let set = members.first().map_or(&[][..], |j| &self.sets[self.subsets[*j]]);
             // What rows at other levels show tells nothing of a level.
-            let mut families = set.iter().map(|factor| factors[*factor].family());
-            if families.any(|family| family.is_count() || family.levels().is_some()) {
-                excess.max(0.0)
-            } else {
-                share * excess.max(0.0)
-            }
+            let is_open = set.iter().any(|factor| factors[*factor].family().has_levels());
+            if is_open { excess.max(0.0) } else { share * excess.max(0.0) }
         });
         of_subsets.collect::<Vec<f64>>().iter().sum()
     }
