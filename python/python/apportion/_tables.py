@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import numbers as kinds
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -61,7 +62,7 @@ def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str
     else:
         return None
     texts = [str(name) for name in names]
-    again = [name for place, name in enumerate(texts) if name in texts[:place]]
+    again = [name for name, count in Counter(texts).items() if count > 1]
     if again:
         raise error(f"{what} two columns with the name {again[0]!r}: their names must differ")
     return {text: numbers(data[name], f"{what} in the column {text!r}", error) for text, name in zip(texts, names)}
@@ -86,8 +87,9 @@ def series_name(data: Any) -> str | None:
 
 def placed(columns: Mapping[str, Any], expected: Sequence[str], what: str) -> list[Any]:
     """The `columns` in the order of `expected`; a `StudyError` says of `what` which are missing and which are none of them."""
+    known = set(expected)
     missing = [name for name in expected if name not in columns]
-    strange = [name for name in columns if name not in expected]
+    strange = [name for name in columns if name not in known]
     if missing or strange:
         wrong = [f"without {', '.join(missing)}"] * bool(missing) + [f"with {', '.join(strange)}"] * bool(strange)
         raise StudyError(f"{what} {' and '.join(wrong)}: expected the columns {', '.join(expected)}, in any order")
