@@ -17,9 +17,9 @@ target=${CARGO_TARGET_DIR:-$PWD/target}/web
 # Random numbers come from seeds alone: there is no source of them in the page.
 export RUSTFLAGS="--cfg getrandom_backend=\"unsupported\" --remap-path-prefix=$PWD=. --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
 CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target wasm32-unknown-unknown -p apportion-web
-# zopfli writes gzip that is a twentieth smaller.
+# zopfli writes gzip that is a twentieth smaller: pages must not grow by what a machine lacks.
 pack=(gzip -9nc)
-command -v zopfli >/dev/null && pack=(zopfli -c)
+if command -v zopfli >/dev/null; then pack=(zopfli -c); elif [ $# = 0 ]; then echo "zopfli is missing" >&2; exit 1; fi
 "${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" >"$folder/engine.wasm.gz"
 { cat LICENSE-MIT assets/joe-kuo/LICENSE-JOE-KUO; python3 .ci/licences.py apportion-web wasm32-unknown-unknown; } >"$folder/LICENCES.txt"
 echo "wrote $folder/engine.wasm.gz, $(wc -c <"$folder/engine.wasm.gz") bytes"

@@ -4,12 +4,13 @@
 //! factors, V_u(f) = V_u(g) + 2 Cov(e, g_u) + V_u(e), with 0 <= V_u(e) <= V(e). The index is that of the surrogate of all
 //! rows. Half the width of its interval is
 //!
-//! h_u = (1 + 24/n) (1.8 (1 + 4 k q) sqrt(3/4 v_u + 1/4 mean of v) + (1/4 + 3/4 noise) V(e)/V),
+//! h_u = (1 + m/n) (1.8 (1 + 4 k q) sqrt(3/4 v_u + 1/4 mean of v) + (1/4 + 3/4 noise) V(e)/V),
 //!
 //! v_u the mean of two variances: that of the mean of 2 e (g_u - theta_u g) - theta_u e^2 over the held-out rows, and that
-//! by the jackknife over the parts left out; n the number of rows, all of which determine the hyperparameters; k the
-//! concentration of the former on few rows, q that of the output by its kurtosis; noise the share of V(e) that the prior takes for it. The numbers were fitted to 16 functions at 64 to 512
-//! rows. An interval by the posterior of the coefficients alone covers half of them.
+//! by the jackknife over the parts left out; n the number of rows, all of which determine the hyperparameters, m that of
+//! those, three for each factor, and at least 24; k the concentration of the former on few rows, q that of the output by
+//! its kurtosis; noise the share of V(e) that the prior takes for it. The numbers were fitted to 16 functions at 64 to
+//! 512 rows. An interval by the posterior of the coefficients alone covers half of them.
 
 use crate::surrogate::chaos::Chaos;
 
@@ -21,8 +22,10 @@ const OWN: f64 = 0.75;
 /// The part of what is left that counts if none of it is noise.
 const REMAINDER: f64 = 0.25;
 
-/// Rows at which the hyperparameters make the parts that are left out look half as different as they are.
+/// Rows at which the hyperparameters make the parts that are left out look half as different as they are: at least, and
+/// for each factor.
 const HALF_AS_DIFFERENT: f64 = 24.0;
+const OF_FACTOR: f64 = 3.0;
 
 /// Kurtosis of an output from which few rows may carry it, and the distance to where they do.
 const KURTOSIS: f64 = 4.0;
@@ -39,6 +42,8 @@ pub(crate) struct HeldOut<'a> {
     remainder: f64,
     /// The share of the variance that no rows show.
     unseen: f64,
+    /// The factor of all half widths that is due to the hyperparameters.
+    few: f64,
 }
 
 /// The error of an index.
@@ -65,6 +70,7 @@ impl<'a> HeldOut<'a> {
             concentration: ((four / (two * two) - KURTOSIS) / KURTOSIS).clamp(0.0, 1.0),
             remainder: (REMAINDER + (1.0 - REMAINDER) * noise) * chaos.rest / variance,
             unseen: chaos.unseen(),
+            few: 1.0 + HALF_AS_DIFFERENT.max(OF_FACTOR * chaos.basis().factors.len() as f64) / y.len() as f64,
         }
     }
 
@@ -100,8 +106,7 @@ impl<'a> HeldOut<'a> {
         let variance = spreads.iter().map(|of| of.variance).sum::<f64>() / count;
         let concentration = spreads.iter().map(|of| of.concentration).sum::<f64>() / count;
         let widening = SPREAD * (1.0 + CONCENTRATED * concentration * self.concentration);
-        let few = 1.0 + HALF_AS_DIFFERENT / self.sum.len() as f64;
         let spread = |of: &Spread| widening * (OWN * of.variance + (1.0 - OWN) * variance).sqrt();
-        spreads.iter().map(|of| few * (spread(of) + self.remainder) + self.unseen).collect()
+        spreads.iter().map(|of| self.few * (spread(of) + self.remainder) + self.unseen).collect()
     }
 }
