@@ -19,7 +19,7 @@ export RUSTFLAGS="--cfg getrandom_backend=\"unsupported\" --remap-path-prefix=$P
 CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target wasm32-unknown-unknown -p apportion-web
 # zopfli writes gzip that is a twentieth smaller: pages must not grow by what a machine lacks.
 pack=(gzip -9nc)
-if command -v zopfli >/dev/null; then pack=(zopfli -c); elif [ $# = 0 ]; then echo "zopfli is missing" >&2; exit 1; fi
+if command -v zopfli >/dev/null; then pack=(zopfli -c); elif [ $# = 0 ]; then echo "zopfli is missing: a package of the system" >&2; exit 1; fi
 "${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" >"$folder/engine.wasm.gz"
 { cat LICENSE-MIT assets/joe-kuo/LICENSE-JOE-KUO; python3 .ci/licences.py apportion-web wasm32-unknown-unknown; } >"$folder/LICENCES.txt"
 echo "wrote $folder/engine.wasm.gz, $(wc -c <"$folder/engine.wasm.gz") bytes"

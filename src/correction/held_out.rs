@@ -42,7 +42,7 @@ pub(crate) struct HeldOut<'a> {
     remainder: f64,
     /// The share of the variance that no rows show.
     unseen: f64,
-    /// The factor of all half widths that is due to the hyperparameters.
+    /// The factor of all half widths by which hyperparameters that saw these rows make them too small.
     few: f64,
 }
 
